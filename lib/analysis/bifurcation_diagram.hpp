@@ -118,13 +118,13 @@ class BifurcationDiagram {
   /// Those that are traced to both ends.
   [[nodiscard]] const std::vector<Branch>& branches() const { return branches_; }
   /// The one under way as far as it is traced, with no end where it still goes on; nothing between two branches.
-  [[nodiscard]] std::optional<Branch> under_way() const;
+  [[nodiscard]] std::optional<Branch> unfinished_branch() const;
   [[nodiscard]] std::size_t waiting() const { return starts_.size(); }  ///< starts of branches to come
   [[nodiscard]] bool full() const { return full_; }                     ///< more branches were there than asked for
 
  private:
   /// One way along the branch under way.
-  struct Way {
+  struct BranchPart {
     std::vector<BranchOrbit> orbits;  ///< from the start on
     std::vector<SpecialPoint> special;
     std::vector<std::size_t> after;  ///< of each: the orbit before it on this way
@@ -136,10 +136,10 @@ class BifurcationDiagram {
   [[nodiscard]] TreeStep next_orbit();
   void see(SpecialPoint point, TreeStep& step) const;
   [[nodiscard]] std::vector<BranchStart> leaving(const SpecialPoint& point, std::size_t number) const;
-  void begin_way(const BranchOrbit& from);
+  void begin_part(const BranchOrbit& from);
   [[nodiscard]] ContinuationOptions range_of(const BranchStart& start) const;
-  void end_way(const BranchLimit& limit);
-  [[nodiscard]] Branch joined(std::vector<Way> ways) const;
+  void end_part(const BranchLimit& limit);
+  [[nodiscard]] Branch joined(std::vector<BranchPart> parts) const;
   void finish_branch();
   [[nodiscard]] bool loses_itself(const SpecialPoint& point) const;
   [[nodiscard]] bool has_fallen_onto_another() const;
@@ -156,7 +156,7 @@ class BifurcationDiagram {
   BranchStart current_;                ///< of the branch under way
   OrbitFamily family_;                 ///< of it
   std::optional<Continuation> trace_;  ///< of the way under way
-  std::vector<Way> ways_;              ///< forward, then backward
+  std::vector<BranchPart> parts_;      ///< forward, then backward
   std::vector<std::optional<SpecialPlace>> same_as_;
   bool full_ = false;
 };

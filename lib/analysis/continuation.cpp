@@ -54,17 +54,17 @@ double multiplier_change(const std::vector<InvariantBlock>& blocks, const Matrix
 
 StepVerdict judge_step(const ContinuationOptions& options, double step, double angle, double distance, double moved) {
   // What steps aim at may be exceeded by as much again.
-  const double turned = angle / (2.0 * options.max_tangent_angle);
+  const double rotated = angle / (2.0 * options.max_tangent_angle);
   const double missed = distance / (options.predictor_tolerance * step);
   const double jumped = moved / options.multiplier_change;
   StepVerdict verdict;
-  verdict.good = std::max({turned, missed, jumped}) <= 1.0;
-  verdict.reason = turned > 1.0   ? "the tangent of the branch rotates too far"
+  verdict.good = std::max({rotated, missed, jumped}) <= 1.0;
+  verdict.reason = rotated > 1.0  ? "the tangent of the branch rotates too far"
                    : missed > 1.0 ? "the predictor is too far from the orbit"
                                   : "a multiplier jumps";
   // Half of each is where the next step goes to; a guess of second order misses by the third power.
   verdict.grow =
-      std::min({0.5 / std::max(turned, 1e-3), std::cbrt(0.3 / std::max(missed, 1e-3)), 0.7 / std::max(jumped, 1e-3)});
+      std::min({0.5 / std::max(rotated, 1e-3), std::cbrt(0.3 / std::max(missed, 1e-3)), 0.7 / std::max(jumped, 1e-3)});
   return verdict;
 }
 
@@ -112,15 +112,15 @@ bool Continuation::back_at_the_start(const BranchOrbit& next, double step) const
 /// The first of the values that orbits are wanted at, the ends of the range among them, on the way to another.
 std::optional<double> Continuation::wanted_before(double value) const {
   std::optional<double> first;
-  const auto ask = [&](double wanted) {
-    const bool on_the_way = value > state_.now.at.value ? wanted > state_.now.at.value && wanted <= value
-                                                        : wanted < state_.now.at.value && wanted >= value;
-    if (on_the_way && (!first || std::abs(wanted - state_.now.at.value) < std::abs(*first - state_.now.at.value)))
+  const auto request = [&](double wanted) {
+    const bool between = value > state_.now.at.value ? wanted > state_.now.at.value && wanted <= value
+                                                     : wanted < state_.now.at.value && wanted >= value;
+    if (between && (!first || std::abs(wanted - state_.now.at.value) < std::abs(*first - state_.now.at.value)))
       first = wanted;
   };
-  ask(options_.from);
-  ask(options_.to);
-  for (const double v : options_.values) ask(v);
+  request(options_.from);
+  request(options_.to);
+  for (const double v : options_.values) request(v);
   return first;
 }
 

@@ -57,7 +57,7 @@ class Locus {
             : !block_->real                               ? Form::single
             : subject.kind == SpecialKind::neimark_sacker ? Form::pair
                                                           : Form::bordered;
-    at_ = subject.kind == SpecialKind::flip ? -1.0 : 1.0;
+    at_ = subject.kind == SpecialKind::period_doubling ? -1.0 : 1.0;
   }
   Locus(const Locus&) = delete;
   Locus& operator=(const Locus&) = delete;
@@ -78,8 +78,8 @@ class Locus {
     const std::vector<ClosingRow> rows = {row, {&near.across}};
     OrbitPlace z = guess;
     double slope = near.slope;
-    double way = 0.0;  // along the orbits of the plane
-    double way_before = 0.0;
+    double distance = 0.0;  // along the orbits of the plane
+    double distance_before = 0.0;
     double g_before = 0.0;
     double stepped = std::numeric_limits<double>::infinity();
     constexpr int iterations = 10;
@@ -97,7 +97,7 @@ class Locus {
         return result;
       }
       // Steps as short as the noise of g tell no slope, unless they agree with the one that is known.
-      const double seen = k > 0 ? (*g - g_before) / (way - way_before) : slope;
+      const double seen = k > 0 ? (*g - g_before) / (distance - distance_before) : slope;
       constexpr double alike = 2.0;
       const bool agrees = seen / slope > 1.0 / alike && seen / slope < alike;
       if (std::isfinite(seen) && seen != 0.0 && (agrees || stepped > surface_.family.known)) slope = seen;
@@ -120,8 +120,8 @@ class Locus {
         return result;
       }
       g_before = *g;
-      way_before = way;
-      way += step;
+      distance_before = distance;
+      distance += step;
       stepped = std::abs(step);
       z = newton.at + step * along;
     }
@@ -307,7 +307,7 @@ class Locus {
   }
 
   [[nodiscard]] std::optional<OrbitPlace> cut(const OrbitPlace& z) const {
-    std::optional<CurvePoint> c = cut_into_pieces(surface_.at(z.values(1)), z.states.col(0), z.values(0));
+    std::optional<CurvePoint> c = split_into_intervals(surface_.at(z.values(1)), z.states.col(0), z.values(0));
     if (!c) return std::nullopt;
     return OrbitPlace{std::move(c->states), z.values};
   }
@@ -479,19 +479,25 @@ CodimTwo name_of(const Locus& locus, const InvariantBlock& block, Crossing cross
   const LocusSubject& s = locus.subject();
   const bool same = block.symmetry_index == s.symmetry_index;
   const bool fold = s.kind == SpecialKind::fold;
-  const bool flip = s.kind == SpecialKind::flip;
+  const bool period_doubling = s.kind == SpecialKind::period_doubling;
   const bool torus = s.kind == SpecialKind::neimark_sacker;
   const bool synchronous = block.symmetry_index == 0;
   switch (crossing) {
     case Crossing::plus:
-      if (same && !flip && !torus) return CodimTwo::resonance_1_1;
+      if (same && !period_doubling && !torus) return CodimTwo::resonance_1_1;
       if (!synchronous) return CodimTwo::double_crossing;
-      return flip ? CodimTwo::fold_flip : torus ? CodimTwo::fold_neimark_sacker : CodimTwo::double_crossing;
+      return period_doubling ? CodimTwo::fold_period_doubling
+             : torus         ? CodimTwo::fold_neimark_sacker
+                             : CodimTwo::double_crossing;
     case Crossing::minus:
-      if (same && flip) return CodimTwo::resonance_1_2;
-      return fold ? CodimTwo::fold_flip : torus ? CodimTwo::flip_neimark_sacker : CodimTwo::double_crossing;
+      if (same && period_doubling) return CodimTwo::resonance_1_2;
+      return fold    ? CodimTwo::fold_period_doubling
+             : torus ? CodimTwo::period_doubling_neimark_sacker
+                     : CodimTwo::double_crossing;
     case Crossing::pair:
-      return fold ? CodimTwo::fold_neimark_sacker : flip ? CodimTwo::flip_neimark_sacker : CodimTwo::double_crossing;
+      return fold              ? CodimTwo::fold_neimark_sacker
+             : period_doubling ? CodimTwo::period_doubling_neimark_sacker
+                               : CodimTwo::double_crossing;
     case Crossing::unresolved:
       break;
   }
@@ -616,11 +622,11 @@ std::string to_string(CodimTwo kind) {
       return "resonance_1_3";
     case CodimTwo::resonance_1_4:
       return "resonance_1_4";
-    case CodimTwo::fold_flip:
+    case CodimTwo::fold_period_doubling:
       return "fold_flip";
     case CodimTwo::fold_neimark_sacker:
       return "fold_neimark_sacker";
-    case CodimTwo::flip_neimark_sacker:
+    case CodimTwo::period_doubling_neimark_sacker:
       return "flip_neimark_sacker";
     case CodimTwo::double_crossing:
       return "double_crossing";
@@ -666,7 +672,7 @@ LocusCorrection locus_start(const OrbitSurface& surface, const SpecialPoint& poi
   Locus locus(surface, subject_of(point), point.orbit.at.states.rows());
   OrbitPlace z{point.orbit.at.states, Eigen::Vector2d(point.orbit.at.value, second)};
   if (z.states.cols() != surface.family.shooting_intervals) {
-    const auto cut = cut_into_pieces(surface.at(second), z.states.col(0), z.values(0));
+    const auto cut = split_into_intervals(surface.at(second), z.states.col(0), z.values(0));
     if (!cut) {
       LocusCorrection none;
       none.message = "the orbit could not be divided into shooting intervals";
@@ -701,17 +707,17 @@ OrbitPlace LocusTrace::guess(double step) const {
 std::optional<LocusTrace::Edge> LocusTrace::edge_before(const OrbitPlace& there) const {
   std::optional<Edge> first;
   double least = 1.0;
-  const auto ask = [&](Eigen::Index parameter, double edge) {
+  const auto request = [&](Eigen::Index parameter, double edge) {
     const double now = state_.now.at.values(parameter);
     const double part = (edge - now) / (there.values(parameter) - now);
     if (!(part > 0.0 && part <= least)) return;
     least = part;
     first = Edge{parameter, edge};
   };
-  ask(0, options_.along.from);
-  ask(0, options_.along.to);
-  ask(1, options_.second_from);
-  ask(1, options_.second_to);
+  request(0, options_.along.from);
+  request(0, options_.along.to);
+  request(1, options_.second_from);
+  request(1, options_.second_to);
   return first;
 }
 
@@ -719,8 +725,8 @@ std::optional<LocusTrace::Edge> LocusTrace::edge_before(const OrbitPlace& there)
 bool LocusTrace::leaves_here() const {
   const auto leaves = [&](Eigen::Index parameter, double from, double to) {
     const double now = state_.now.at.values(parameter);
-    const double way = state_.now.direction.values(parameter);
-    return (now == to && way > 0.0) || (now == from && way < 0.0);
+    const double component = state_.now.direction.values(parameter);
+    return (now == to && component > 0.0) || (now == from && component < 0.0);
   };
   return leaves(0, options_.along.from, options_.along.to) || leaves(1, options_.second_from, options_.second_to);
 }

@@ -79,9 +79,9 @@ enum class CodimTwo {
   resonance_1_2,
   resonance_1_3,
   resonance_1_4,
-  fold_flip,
+  fold_period_doubling,
   fold_neimark_sacker,
-  flip_neimark_sacker,
+  period_doubling_neimark_sacker,
   double_crossing,  ///< two of other kinds at once: two pairs, or one that breaks the symmetry with another
   unresolved,       ///< several at once
 };

@@ -127,8 +127,8 @@ struct Correction {
 
 /// The states at the beginnings of the family's pieces of the motion from y.
 /// @returns nothing if it could not be carried; without shifts along neutral directions
-[[nodiscard]] std::optional<CurvePoint> cut_into_pieces(const OrbitFamily& family, const Eigen::VectorXd& y,
-                                                        double value);
+[[nodiscard]] std::optional<CurvePoint> split_into_intervals(const OrbitFamily& family, const Eigen::VectorXd& y,
+                                                             double value);
 
 /// The orbit at a value from one state, cut into the family's pieces.
 /// @throws as check_neutral()

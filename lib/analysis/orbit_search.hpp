@@ -47,7 +47,7 @@ namespace epicyclic::analysis {
 struct SearchOptions {
   int smallest_period = 1;  ///< of the n that are sought, in periods of the forcing
   int largest_period = 1;
-  int settle = 0;               ///< periods that a start is carried for, to come back near itself; 0: that is not tried
+  int return_periods = 0;       ///< periods that a start is carried for, to come back near itself; 0: that is not tried
   int returns = 1;              ///< how many of the states that come back nearest are tried
   int rounds = 2;               ///< of deflation at most; 0: none
   int iterations = 30;          ///< of the damped method
@@ -63,10 +63,10 @@ struct SearchOptions {
 
 /// Where a start's way ended without an orbit.
 enum class SearchFailure {
-  not_carried,    ///< an evolution failed
-  no_descent,     ///< no damped step falls: a place where |F| is least, or a singular one
-  iterations,     ///< as many as allowed
-  not_corrected,  ///< Newton's method without damping did not confirm it
+  not_integrated,  ///< an evolution failed
+  no_descent,      ///< no damped step falls: a place where |F| is least, or a singular one
+  iterations,      ///< as many as allowed
+  not_corrected,   ///< Newton's method without damping did not confirm it
 };
 
 /// "not_carried", "no_descent", "iterations", "not_corrected".

@@ -81,24 +81,24 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
   y.col(0) = as_vector(start);
   double best = std::numeric_limits<double>::infinity();
   // Of the best iteration alone, where it is asked for, and once: its singular values cost more than the step.
-  double told = best;
-  const auto tell_error = [&] {
-    if (told == best) return;
-    told = best;
+  double reported = best;
+  const auto report_error = [&] {
+    if (reported == best) return;
+    reported = best;
     orbit.error = orbit_error(orbit.monodromy, std::max(best, options.residual));
   };
   const auto is_known = [&] {
-    tell_error();
+    report_error();
     return std::isfinite(best) && orbit.error <= options.known * as_vector(orbit.state).lpNorm<Eigen::Infinity>();
   };
   const auto not_reached = [&](const integrate::Evolution& e) {
-    tell_error();
+    report_error();
     orbit.outcome = OrbitOutcome::not_reached;
     orbit.message = e.message;
     return orbit;
   };
   if (options.shooting_intervals > 1)
-    if (const integrate::Evolution e = carry_to_intervals(flow, n, y); !e.reached()) return not_reached(e);
+    if (const integrate::Evolution e = integrate_to_intervals(flow, n, y); !e.reached()) return not_reached(e);
   Shot at;
   bool kept = false;
   for (int k = 0; k < options.iterations; ++k) {
@@ -114,7 +114,7 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
       take_state(y, at, orbit);
     }
     if (residual <= options.residual) {
-      tell_error();
+      report_error();
       orbit.outcome = OrbitOutcome::converged;
       return orbit;
     }

@@ -91,7 +91,7 @@ class StrobeProgress {
   StrobeProgress& operator=(const StrobeProgress&) = delete;
 
   /// All periods are carried, or an evolution failed.
-  [[nodiscard]] bool over() const { return !strobe_.evolution.reached() || carried_ == last_; }
+  [[nodiscard]] bool over() const { return !strobe_.evolution.reached() || advanced_ == last_; }
   /// Of the next period; empty in the transient.
   [[nodiscard]] std::span<const double> samples() const;
   [[nodiscard]] const integrate::Observer& observer() const { return see_; }
@@ -101,7 +101,7 @@ class StrobeProgress {
 
  private:
   StrobeOptions options_;
-  int carried_ = 0;  ///< periods
+  int advanced_ = 0;  ///< periods
   int last_ = 0;
   std::vector<double> samples_;
   integrate::Observer see_;
@@ -110,7 +110,8 @@ class StrobeProgress {
 
 /// Carries a strobe to its end by one flow.
 /// @param go_on  asked before each period; false leaves it where it is
-void carry(integrate::Flow& flow, std::span<double> state, StrobeProgress& strobe, const std::function<bool()>& go_on);
+void advance_strobe(integrate::Flow& flow, std::span<double> state, StrobeProgress& strobe,
+                    const std::function<bool()>& go_on);
 
 /// Carries `state` over the transient, then records.
 ///

@@ -25,7 +25,7 @@ constexpr int least_window = 16;
 /// Periods that an exponent's interval needs; the 0-1 test needs twice as many, and takes the look before along.
 constexpr int growth_window = 128;
 /// A recurrence error up to this part of the extent is that of a motion all but on its orbit.
-constexpr double settled = 0.01;
+constexpr double converged = 0.01;
 /// Periods whose recurrence errors are this near recur alike: the shortest is sought.
 constexpr double alike = 10.0;
 /// A found orbit's residual is at most this part of the motion's own recurrence error, or so many times what was asked:
@@ -47,7 +47,7 @@ constexpr double slow_growth = 4.0 * neutral_growth;
 /// Periods over which e^2 is told from a small exponent.
 constexpr int torus_window = 1024;
 /// Periods of looks at one tolerance before a tighter one is asked, where vectors do not grow.
-constexpr int look_at_one_tolerance = 1024;
+constexpr int periods_at_one_tolerance = 1024;
 /// Periods from which on growth and the 0-1 test contradict each other: over fewer the test abstains or errs.
 constexpr std::size_t contradiction_window = 512;
 /// No flow tells more of an orbit than this, in parts of its largest component.
@@ -55,7 +55,7 @@ constexpr double least_residual = 1e-9;
 /// A return error that falls by this factor from each quarter of a look to the next is that of a motion that settles.
 constexpr double falling = 0.75;
 /// A torus is turned along at no point of it slower than this part of the fastest.
-constexpr double least_turning = 0.01;
+constexpr double least_rotation_rate = 0.01;
 /// A motion is as near to an orbit as it was to within a hundredth: the slowest multipliers move it by less.
 constexpr double as_near = 1.01;
 /// Returns over which a motion is followed until it is, and over which its monodromy is asked where it leads.
@@ -90,15 +90,15 @@ class Classifier {
     if (before != nullptr && before->size() > 0) {
       section_ = *before;
       for (std::size_t k = 0; k < section_.size(); ++k) series_.push_back(section_.point(k)[options_.observable]);
-      look_before_ = 0;
+      previous_window_ = 0;
       first_ = static_cast<int>(section_.size());
       find_recurrence();
       // What does not nearly recur is most likely chaotic, which growth tells for less than Newton's method fails.
-      if (is_periodic(settled)) return std::move(result_);
+      if (is_periodic(converged)) return std::move(result_);
       // As long a look as growth can be told from.
       first = std::max(first, growth_window);
     } else {
-      look_tightly();
+      use_tight_tolerance();
     }
     for (int window = first;;) {
       window = std::min(window, options_.budget - seen.periods);
@@ -106,13 +106,13 @@ class Classifier {
       const std::vector<double> start(state_.begin(), state_.end());
       if (!record(window)) return std::move(result_);
       contradicts_ = false;
-      if (!grows() && look_tightly()) {
+      if (!grows() && use_tight_tolerance()) {
         // What does not grow remembers where it began, and a loose look may have led it to another attractor.
         std::copy(start.begin(), start.end(), state_.begin());
         continue;
       }
       // A long look may have ended on an orbit that it began far from.
-      if (is_periodic(settled)) return std::move(result_);
+      if (is_periodic(converged)) return std::move(result_);
       if (is_chaotic()) {
         if (outlasts()) return std::move(result_);
       } else if (is_periodic(options_.near)) {
@@ -122,12 +122,12 @@ class Classifier {
       if (is_torus()) return std::move(result_);
       leave_what_repels();
       if (contradicts_ && growth_.size() >= contradiction_window && grows_weakly()) {
-        look_tightly();
+        use_tight_tolerance();
         returned_ = true;
       } else if (seen.late_growth > 4.0 * neutral_growth) {
-        look_loosely();
+        use_loose_tolerance();
       }
-      if ((contradicts_ || !grows()) && level_periods_ >= look_at_one_tolerance) tighten();
+      if ((contradicts_ || !grows()) && level_periods_ >= periods_at_one_tolerance) tighten();
       window *= 2;
       // Where vectors neither grow nor shrink, no look tells anything that is not long.
       if (std::abs(seen.late_growth) <= neutral_growth && growth_.size() >= growth_window)
@@ -149,19 +149,19 @@ class Classifier {
 
   /// Looks are at the tolerance of orbits from here on.
   /// @returns false if they are already
-  bool look_tightly() {
+  bool use_tight_tolerance() {
     if (flow_ == tight_) return false;
     flow_ = tight_;
-    forget_looks();
+    forget_windows();
     return true;
   }
 
   /// Looks of a motion that grows are at the looser tolerance, once: what returns from there stays at the tighter one.
-  void look_loosely() {
+  void use_loose_tolerance() {
     if (flow_ == loose_ || returned_) return;
     returned_ = true;
     flow_ = loose_;
-    forget_looks();
+    forget_windows();
   }
 
   /// The next tighter tolerance for all, if there is one.
@@ -181,10 +181,10 @@ class Classifier {
   }
 
   /// Growth and section of another flow are none of this one.
-  void forget_looks() {
+  void forget_windows() {
     growth_.clear();
     series_.clear();
-    look_before_ = 0;
+    previous_window_ = 0;
     level_periods_ = 0;
     if (left_at_) left_at_ = 0;
   }
@@ -194,8 +194,8 @@ class Classifier {
     section_ = {};
     section_.dimension = state_.size();
     // The look before goes along: it is of the same motion.
-    series_.erase(series_.begin(), series_.begin() + static_cast<std::ptrdiff_t>(look_before_));
-    look_before_ = series_.size();
+    series_.erase(series_.begin(), series_.begin() + static_cast<std::ptrdiff_t>(previous_window_));
+    previous_window_ = series_.size();
     if (flow_ == exact_) flow_->forget();  // orbits have been sought with it since
     result_.evidence.note.clear();
     LyapunovOptions options;
@@ -215,7 +215,7 @@ class Classifier {
     result_.evidence.late_growth = late_growth(e.growth);
     direction_ = std::move(e.direction);
     if (!result_.evolution.reached() || e.growth.size() < static_cast<std::size_t>(periods)) return false;
-    whole_look_ = section_;
+    whole_window_ = section_;
     // Orbits are told from where the motion is now, not from where a long look began.
     section_.keep_last(growth_window);
     find_recurrence();
@@ -242,25 +242,25 @@ class Classifier {
       while (n < r.best_period && recurrence_error(section_, static_cast<std::size_t>(n)) > error) ++n;
       return n;
     };
-    if (r.period > 0) return settles_to_orbit_of(r.period);
+    if (r.period > 0) return converges_to_orbit_of(r.period);
     // None is sought that costs more than the looks so far, unless the motion is all but on it. Beside a torus many
     // long ones nearly close, and the short one in its middle is no candidate twice.
     const int affordable = std::max(1, (first_ + result_.evidence.periods) / periods_per_orbit);
     const int n = shortest(alike * r.error);
-    if (r.error <= settled * wide) {
-      const int closed = shortest(settled * wide);
+    if (r.error <= converged * wide) {
+      const int closed = shortest(converged * wide);
       const int early = shortest(options_.near * wide);
-      if ((early < closed && early <= affordable && settles_to_orbit_of(early)) || settles_to_orbit_of(closed) ||
-          (n > closed && settles_to_orbit_of(n)))
+      if ((early < closed && early <= affordable && converges_to_orbit_of(early)) || converges_to_orbit_of(closed) ||
+          (n > closed && converges_to_orbit_of(n)))
         return true;
       // About an orbit that is next to a flip the motion comes and goes: it recurs after twice the orbit's period.
       for (int d = n / 2; d >= 1; --d)
-        if (n % d == 0 && settles_to_orbit_of(d)) return true;
+        if (n % d == 0 && converges_to_orbit_of(d)) return true;
       return false;
     }
     // Shorter ones come first: an orbit of period 1 recurs after 2.
     for (int d = 1; d <= std::min(n, affordable); ++d)
-      if (n % d == 0 && settles_to_orbit_of(d)) return true;
+      if (n % d == 0 && converges_to_orbit_of(d)) return true;
     return false;
   }
 
@@ -324,7 +324,7 @@ class Classifier {
     return known;
   }
 
-  bool settles_to_orbit_of(int n) {
+  bool converges_to_orbit_of(int n) {
     Evidence& seen = result_.evidence;
     attracted_ = false;
     const auto vain = in_vain_.try_emplace(n, std::numeric_limits<double>::infinity()).first;
@@ -344,7 +344,7 @@ class Classifier {
     const bool indistinct = largest_difference(last, orbit.state) <= closed_to(orbit);
     if (!indistinct) indistinct_.erase(n);
     if (const int least = least_period(exact, orbit, n); least < n) {
-      if (settles_to_orbit_of(least)) return true;
+      if (converges_to_orbit_of(least)) return true;
       if (std::isfinite(in_vain_[least])) vain->second = distance_now;
       if (indistinct) indistinct_.insert(n);
       return false;
@@ -366,7 +366,7 @@ class Classifier {
       seen.note = "not yet drawn to the " + name + " that is " + distance + " away";
       return false;
     }
-    tell_periodic(std::move(orbit), n, multiplier, error);
+    set_periodic(std::move(orbit), n, multiplier, error);
     seen.note = "drawn to the " + name + " from " + distance + " away";
     return true;
   }
@@ -409,7 +409,7 @@ class Classifier {
     const double distance = from.lpNorm<Eigen::Infinity>();
     double farthest = distance;
     exact.forget();
-    for (int turn = 0; turn < most_returns; ++turn) {
+    for (int return_count = 0; return_count < most_returns; ++return_count) {
       for (int k = 0; k < n; ++k)
         if (!exact.evolve(state, 0.0, exact.field().period).reached()) return std::nullopt;
       const Eigen::VectorXd to = now - on_orbit;
@@ -418,7 +418,7 @@ class Classifier {
       from = to;
       const double away = from.lpNorm<Eigen::Infinity>();
       farthest = std::max(farthest, away);
-      const bool followed = away <= std::max(as_near * distance, noise()) || turn + 1 == most_returns;
+      const bool followed = away <= std::max(as_near * distance, noise()) || return_count + 1 == most_returns;
       if (followed && stays_within(2.0 * std::max(farthest, noise()), orbit.monodromy, from))
         return Approach{distance, true};
     }
@@ -434,7 +434,7 @@ class Classifier {
     return true;
   }
 
-  void tell_periodic(PeriodicOrbit orbit, int n, double multiplier, double error) {
+  void set_periodic(PeriodicOrbit orbit, int n, double multiplier, double error) {
     Evidence& seen = result_.evidence;
     result_.regime = Regime::periodic;
     result_.period = n;
@@ -461,7 +461,7 @@ class Classifier {
       if (n % d != 0) continue;
       const double open = largest_difference(y, orbit.state);
       if (open <= closed) return d;
-      if (open <= settled * scale_) nearly.push_back(d);
+      if (open <= converged * scale_) nearly.push_back(d);
     }
     for (const int d : nearly) {
       const PeriodicOrbit shorter = find_periodic_orbit(flow, orbit.state, d, {.residual = map_residual()});
@@ -537,7 +537,7 @@ class Classifier {
     const int lasting = std::min(options_.lasting, options_.budget);
     const auto last_until = [&](int end) {
       while (lasted() < end)
-        if (!carry_on(std::min(lasted(), end - lasted())) || is_periodic(settled)) return false;
+        if (!advance(std::min(lasted(), end - lasted())) || is_periodic(converged)) return false;
       return true;
     };
     std::string beside;
@@ -558,7 +558,7 @@ class Classifier {
       }
     }
     // Errors of loose looks keep a motion off an orbit that attracts from near by alone, where growth is weak.
-    if (grows_weakly() && look_tightly()) {
+    if (grows_weakly() && use_tight_tolerance()) {
       returned_ = true;
       const int until = lasted() + lasting;
       if (!last_until(until - growth_window) || !last_until(until)) return true;
@@ -654,7 +654,7 @@ class Classifier {
 
   /// A stretch without tangents; the section and the series are those of its end.
   /// @returns false if the motion ended
-  bool carry_on(int periods) {
+  bool advance(int periods) {
     StrobeOptions o;
     o.recorded_periods = std::min(periods, growth_window);
     o.transient_periods = periods - o.recorded_periods;
@@ -667,7 +667,7 @@ class Classifier {
     for (std::size_t k = 0; k < s.section.size(); ++k) series_.push_back(s.section.point(k)[options_.observable]);
     const auto most = 2 * static_cast<std::ptrdiff_t>(growth_window);
     if (std::ssize(series_) > most) series_.erase(series_.begin(), series_.end() - most);  // as before a look
-    look_before_ = 0;
+    previous_window_ = 0;
     section_ = std::move(s.section);
     find_recurrence();
     return true;
@@ -691,11 +691,11 @@ class Classifier {
     if (shrinks_areas())
       return "no torus: the map of one period shrinks all areas in the plane, and an invariant curve keeps its own";
     constexpr std::size_t parts = 4;
-    const std::size_t length = whole_look_.size() / parts;
-    const std::size_t dimension = whole_look_.dimension;
+    const std::size_t length = whole_window_.size() / parts;
+    const std::size_t dimension = whole_window_.dimension;
     std::array<PoincareSection, parts> part;
     for (std::size_t i = 0; i < parts; ++i) {
-      const auto begin = whole_look_.states.begin() + static_cast<std::ptrdiff_t>(i * length * dimension);
+      const auto begin = whole_window_.states.begin() + static_cast<std::ptrdiff_t>(i * length * dimension);
       part[i] = {dimension, {begin, begin + static_cast<std::ptrdiff_t>(length * dimension)}};
     }
     const PoincareSection& late = part.back();
@@ -716,7 +716,7 @@ class Classifier {
     double slowest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k + best < late.size(); ++k)
       slowest = std::min(slowest, largest_difference(late.point(k), late.point(k + best)));
-    if (slowest < least_turning * least)
+    if (slowest < least_rotation_rate * least)
       return "no torus: the states stay nearly at rest at a point of a cycle of " + std::to_string(best) + " periods";
     return {};
   }
@@ -730,10 +730,10 @@ class Classifier {
     std::array<double, 2> low{};
     std::array<double, 2> high{};
     for (std::size_t j = 0; j < 2; ++j) {
-      low[j] = high[j] = whole_look_.point(0)[j];
-      for (std::size_t k = 1; k < whole_look_.size(); ++k) {
-        low[j] = std::min(low[j], whole_look_.point(k)[j]);
-        high[j] = std::max(high[j], whole_look_.point(k)[j]);
+      low[j] = high[j] = whole_window_.point(0)[j];
+      for (std::size_t k = 1; k < whole_window_.size(); ++k) {
+        low[j] = std::min(low[j], whole_window_.point(k)[j]);
+        high[j] = std::max(high[j], whole_window_.point(k)[j]);
       }
     }
     constexpr int across = 5;
@@ -762,12 +762,13 @@ class Classifier {
     Evidence& seen = result_.evidence;
     // What is drawn to an orbit slowly shrinks for long before it recurs. Beside a torus that shears, vectors grow as
     // time does, so that a small positive exponent is none.
-    const bool settles = seen.exponent.value + 3.0 * seen.exponent.half_width < 0.0;
+    const bool decays = seen.exponent.value + 3.0 * seen.exponent.half_width < 0.0;
     if (growth_.size() >= static_cast<std::size_t>(torus_window) && std::abs(late_growth(growth_)) <= neutral_growth &&
-        !settles && seen.zero_one && *seen.zero_one < regular_vote && growth_is_bounded()) {
+        !decays && seen.zero_one && *seen.zero_one < regular_vote && growth_is_bounded()) {
       // Beside a flip of a long orbit all this holds, too, at any price of seeking it so far.
       const Recurrence& r = seen.recurrence;
-      if (r.best_period > 0 && r.error <= near_enough(options_.near) && settles_to_orbit_of(r.best_period)) return true;
+      if (r.best_period > 0 && r.error <= near_enough(options_.near) && converges_to_orbit_of(r.best_period))
+        return true;
       if (attracted_ || indistinct_.count(r.best_period) > 0) return false;
       if (const std::string against = against_torus(); !against.empty()) {
         seen.note = against;
@@ -797,7 +798,7 @@ class Classifier {
   bool contradicts_ = false;  ///< growth and the 0-1 test of the last look contradict each other
   bool returned_ = false;     ///< looks have been loose, or a tighter tolerance was asked
   int level_periods_ = 0;     ///< looked at by this flow
-  PoincareSection whole_look_;
+  PoincareSection whole_window_;
   Classification result_;
   PoincareSection section_;
   int first_ = 0;                  ///< periods of the section that was seen before
@@ -809,7 +810,7 @@ class Classifier {
   bool attracted_ = false;    ///< the orbit that was sought last attracts, though the motion is not yet drawn to it
   std::set<int> indistinct_;  ///< periods of orbits that do not attract, and that the motion is not told from
   std::optional<std::size_t> left_at_{};  ///< so many of g_k were known when the motion was pushed off what repels
-  std::size_t look_before_ = 0;           ///< how many of them are of the look before
+  std::size_t previous_window_ = 0;       ///< how many of them are of the look before
 };
 
 }  // namespace

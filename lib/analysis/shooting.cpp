@@ -89,16 +89,16 @@ std::vector<Stretch> stretches(integrate::Flow& flow, const Eigen::MatrixXd& y, 
   return all;
 }
 
-integrate::Evolution carry_to_intervals(integrate::Flow& flow, Eigen::Index periods, Eigen::MatrixXd& y) {
-  Eigen::VectorXd carried = y.col(0);
+integrate::Evolution integrate_to_intervals(integrate::Flow& flow, Eigen::Index periods, Eigen::MatrixXd& y) {
+  Eigen::VectorXd state = y.col(0);
   integrate::Evolution e;
   flow.forget();
   for (Eigen::Index i = 1; i < y.cols(); ++i) {
     for (const Span& span : spans(period_of(flow.field()), periods, y.cols(), i - 1)) {
-      e = flow.evolve(span_of(carried), span.from, span.to);
+      e = flow.evolve(span_of(state), span.from, span.to);
       if (!e.reached()) return e;
     }
-    y.col(i) = carried;
+    y.col(i) = state;
   }
   return e;
 }

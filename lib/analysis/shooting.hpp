@@ -51,6 +51,6 @@ struct Stretch {
 
 /// The states where pieces begin, carried from the first one, y.col(0).
 /// @returns how it ended; the states are of no meaning unless reached
-integrate::Evolution carry_to_intervals(integrate::Flow& flow, Eigen::Index periods, Eigen::MatrixXd& y);
+integrate::Evolution integrate_to_intervals(integrate::Flow& flow, Eigen::Index periods, Eigen::MatrixXd& y);
 
 }  // namespace epicyclic::analysis

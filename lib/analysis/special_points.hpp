@@ -45,7 +45,7 @@
 
 namespace epicyclic::analysis {
 
-enum class SpecialKind { fold, branch_point, flip, neimark_sacker, grazing, unresolved };
+enum class SpecialKind { fold, branch_point, period_doubling, neimark_sacker, grazing, unresolved };
 
 /// "fold", "branch_point", "flip", "neimark_sacker", "grazing", "unresolved".
 [[nodiscard]] std::string to_string(SpecialKind kind);

@@ -31,7 +31,7 @@ double periodogram(std::span<const double> series, double mean, std::size_t j) {
 
 /// Waves from 2 q on to 6 q tell how the spectrum rises towards those that count.
 constexpr std::size_t steep = 6;
-constexpr std::size_t from_wave = 2;
+constexpr std::size_t steep_from = 2;
 
 /// Of the half width from the slower half of the waves: the larger of both then holds as often as it should where
 /// nothing is correlated.
@@ -51,8 +51,8 @@ double rise_to_zero(std::span<const double> power, std::size_t of, std::size_t q
   if (power.size() <= steep * q) return 1.0;
   const auto centre = [](std::size_t first, std::size_t last) { return 0.5 * static_cast<double>(first + last); };
   const double near = centre(1, of);
-  const double far = centre(from_wave * q + 1, steep * q);
-  const double ratio = mean_power(power, 1, of) / mean_power(power, from_wave * q + 1, steep * q);
+  const double far = centre(steep_from * q + 1, steep * q);
+  const double ratio = mean_power(power, 1, of) / mean_power(power, steep_from * q + 1, steep * q);
   if (!(ratio > 1.0)) return 1.0;
   const double divisor = far * far - ratio * near * near;
   // A record that is shorter than 2 pi correlation times does not say how much longer they are.

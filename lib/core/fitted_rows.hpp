@@ -39,7 +39,7 @@ template <std::size_t K, class F>
   const bool nested = half != nullptr && grid.can_be_halved() && grid.halved() == half->grid;
   FittedRows<K> r{grid, {}, 0.0};
   for (std::size_t k = 0; k <= grid.count; ++k)
-    r.rows.push_back(nested && k % 2 == 0 ? half->rows[k / 2] : f(grid.way(k)));
+    r.rows.push_back(nested && k % 2 == 0 ? half->rows[k / 2] : f(grid.fraction(k)));
   return r;
 }
 

@@ -72,7 +72,7 @@ struct IntervalGrid {
   }
 
   /// How far along the piece, from its start, node k is: 0 to 1, falling with k if `from_end`.
-  [[nodiscard]] double way(std::size_t k) const {
+  [[nodiscard]] double fraction(std::size_t k) const {
     const double u = k == count ? 1.0 : (node(k) - offset) / scale;
     return from_end ? 1.0 - u : u;
   }

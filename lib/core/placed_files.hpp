@@ -22,12 +22,12 @@ class PlacedFiles {
   ~PlacedFiles();
 
  private:
-  friend void tell_placed(const std::filesystem::path& path, Placed how);
+  friend void report_placed(const std::filesystem::path& path, Placed how);
   Listener listener_;
 };
 
 /// For those who put files in place.
 /// @throws what a listener throws
-void tell_placed(const std::filesystem::path& path, Placed how = Placed::there);
+void report_placed(const std::filesystem::path& path, Placed how = Placed::there);
 
 }  // namespace epicyclic

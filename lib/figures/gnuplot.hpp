@@ -7,7 +7,7 @@
 //
 // Texts are UTF-8 in gnuplot's "enhanced" notation (x_{sp}, 10^{-3}). Greek letters and bars are best written as they
 // are (Ω, δ̄); {/Symbol W} and ~{x}{.6-} are turned into them, because gnuplot's SVG files show these wrongly. What
-// somebody has typed becomes such a text by literal_text().
+// somebody has typed becomes such a text by verbatim_text().
 #pragma once
 
 #include <chrono>
@@ -116,7 +116,7 @@ std::string gnuplot_quoted(std::string_view text);
 /// What somebody has typed, as a text that shows it as it was typed: no character means anything. What has no picture
 /// (line breaks, control characters) is a blank, marks that turn the direction of writing are left out, and of a text
 /// that is longer than a line the middle is.
-std::string literal_text(std::string_view typed);
+std::string verbatim_text(std::string_view typed);
 
 /// Estimated width of a text in "enhanced" notation, rather too large than too small, in heights of its font.
 double text_width(std::string_view text);

@@ -51,7 +51,7 @@ class Sketch {
   /// @param rows  of equal length; a row of NaN interrupts a line
   /// @param look  what follows "with"
   template <class Rows>
-  void add(const Rows& rows, std::string_view look, std::string_view title = {}) {
+  void add(const Rows& rows, std::string_view style, std::string_view title = {}) {
     std::size_t columns = 0;
     bool gap = true;
     for (const auto& row : rows) {
@@ -61,21 +61,21 @@ class Sketch {
       gap = written == 0;
       columns = std::max(columns, written);
     }
-    if (columns > 0) end_set(gap, columns, look, title);
+    if (columns > 0) end_set(gap, columns, style, title);
   }
 
   /// A text at each of the places.
   /// @param rows  x and y
   /// @param look  what follows "with labels"
   template <class Rows>
-  void letters(const Rows& rows, std::string_view text, std::string_view look = {}) {
+  void letters(const Rows& rows, std::string_view text, std::string_view style = {}) {
     if (rows.empty()) return;
     for (const auto& row : rows) write(row);
-    end_letters(text, look);
+    end_letters(text, style);
   }
 
   /// An entry of the legend without data.
-  void entry(std::string_view look, std::string_view title) { clause("keyentry", look, title); }
+  void entry(std::string_view style, std::string_view title) { clause("keyentry", style, title); }
 
   /// What is added from here on stands in a frame of its own, under those before. Only the first has a legend.
   void panel(std::string y_label, const FigureRange& y) { panel(FigurePanel{std::move(y_label), y, {}}); }
@@ -113,9 +113,9 @@ class Sketch {
     return columns;
   }
 
-  void end_letters(std::string_view text, std::string_view look);
-  void end_set(bool gap, std::size_t columns, std::string_view look, std::string_view title);
-  void clause(std::string_view source, std::string_view look, std::string_view title);
+  void end_letters(std::string_view text, std::string_view style);
+  void end_set(bool gap, std::size_t columns, std::string_view style, std::string_view title);
+  void clause(std::string_view source, std::string_view style, std::string_view title);
 
   std::string stem_, data_, plot_, commands_;
   std::size_t sets_ = 0;

@@ -56,14 +56,14 @@ struct MeshLoad {
 
 /// Each mesh of the static train carries T_D / (N r_bs); both kinds of mesh run at the sun's base speed relative to the
 /// carrier, omega_m p_b / 2 pi.
-/// @param stage  passes problems_for_motion()
+/// @param stage  passes problems_for_dynamics()
 [[nodiscard]] MeshLoad mean_mesh_load(const Stage& stage, double mesh_frequency);
 
 /// F / k_0: by what a mesh yields to the mean force [um].
 [[nodiscard]] double static_deflection_um(const Mesh& mesh, const MeshLoad& load);
 
 /// What both mean mesh forces load a planet's bearing with [N].
-/// @param stage  passes problems_for_motion()
+/// @param stage  passes problems_for_dynamics()
 [[nodiscard]] double mean_planet_load(const Stage& stage, double mesh_frequency);
 
 /// The contact of the pair at a position [base pitches from the start of contact].

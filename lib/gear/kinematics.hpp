@@ -7,7 +7,7 @@
 //   cos alpha_sp = (r_bs + r_bp) / r_c ,  cos alpha_rp = (r_br - r_bp) / r_c                           [G-kin]
 //
 // Source: docs/theory/model.md, section 4; any textbook on epicyclic trains. Limits: a stage that passes
-// problems_for_motion().
+// problems_for_dynamics().
 #pragma once
 
 #include <numbers>

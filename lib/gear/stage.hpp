@@ -211,6 +211,6 @@ struct Misfit {
 [[nodiscard]] std::vector<std::string> problems_for_modes(const Stage& stage);
 
 /// What must hold, beyond that, for time integration: supports that fit the boundary, compatible radii, a load, ...
-[[nodiscard]] std::vector<std::string> problems_for_motion(const Stage& stage);
+[[nodiscard]] std::vector<std::string> problems_for_dynamics(const Stage& stage);
 
 }  // namespace epicyclic::gear

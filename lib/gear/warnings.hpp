@@ -60,9 +60,9 @@ namespace epicyclic::gear {
 
 /// What is allowed but rarely meant in time integration: planets that cannot be assembled, supports without damping or
 /// with more than critical, wide gaps. Of a stage for modes alone what its values let one see.
-[[nodiscard]] std::vector<Warning> warnings_for_motion(const Stage& stage);
+[[nodiscard]] std::vector<Warning> warnings_for_dynamics(const Stage& stage);
 
-/// Speeds, forces and deflections at an operating point; none of a stage that does not pass problems_for_motion().
+/// Speeds, forces and deflections at an operating point; none of a stage that does not pass problems_for_dynamics().
 /// @param mesh_frequency  omega_m [rad/s]
 /// @param set  of the stage's catalogue data, for the pressure of its flanks; without it that of lubricated contact
 [[nodiscard]] std::vector<Warning> warnings_at(const Stage& stage, double mesh_frequency, const GearSet* set = nullptr);

@@ -116,7 +116,7 @@ enum class CoordinateChoice { relative, full };
 /// The layout that a stage is integrated in.
 [[nodiscard]] Layout layout_of(const gear::Stage& stage, CoordinateChoice choice);
 
-/// @param stage  passes gear::problems_for_motion()
+/// @param stage  passes gear::problems_for_dynamics()
 /// @throws InputError for options that do not fit the boundary: printed gyroscopic terms with a free carrier do not
 ///         close in relative coordinates
 [[nodiscard]] DynamicModel make_dynamic_model(const gear::Stage& stage, const Scales& scales,

@@ -32,16 +32,16 @@ struct LanePlace {
   using Track = PeriodicTrack<K>;
 
   std::array<const Track*, W> track{};
-  std::array<TrackPiece, W> piece{};
+  std::array<TrackSegment, W> track_segments{};
   std::array<const Cubics<K>*, W> cubics{};
   Lanes<W> centre, origin, slope, offset, last;
   LaneWords<W> first_bits, shift;
   bool regular = false;  ///< in all lanes
 
   void set(std::size_t lane, const Track& of, const TrackPlace& place) {
-    const TrackPiece& p = place.piece;
+    const TrackSegment& p = place.segment;
     track[lane] = &of;
-    piece[lane] = p;
+    track_segments[lane] = p;
     cubics[lane] = of.cubics(p);
     centre.set(lane, place.centre);
     origin.set(lane, p.origin);
@@ -51,7 +51,7 @@ struct LanePlace {
     first_bits.set(lane, p.grid.first_bits());
     shift.set(lane, static_cast<std::uint64_t>(p.grid.shift));
     regular = true;
-    for (std::size_t k = 0; k < W; ++k) regular = regular && track[k] != nullptr && piece[k].regular;
+    for (std::size_t k = 0; k < W; ++k) regular = regular && track[k] != nullptr && track_segments[k].regular;
   }
 
   /// @param phase  each lane's, within half a turn of its place, whole turns apart
@@ -75,8 +75,8 @@ struct LanePlace {
     std::array<Row<double, K>, W> rows;
     for (std::size_t lane = 0; lane < W; ++lane) {
       const auto number = static_cast<std::size_t>(found.number[lane]);
-      rows[lane] = piece[lane].regular ? cubics_at(cubics[lane][number], found.t[lane])
-                                       : track[lane]->at(piece[lane], found.x[lane], number);
+      rows[lane] = track_segments[lane].regular ? cubics_at(cubics[lane][number], found.t[lane])
+                                                : track[lane]->at(track_segments[lane], found.x[lane], number);
     }
     return transposed<W, K>(rows);
   }
@@ -153,7 +153,7 @@ void LaneParameters<N, W>::check(const Parameters<double, N>& p) const {
   const auto mesh_fits = [](const MeshParameters<double, N>& m, const MeshParameters<Lanes<W>, N>& to) {
     bool alike = m.harmonics == to.harmonics && (m.friction != nullptr) == (to.friction != nullptr) &&
                  (m.stiffness_curve != nullptr) == (to.stiffness_curve != nullptr);
-    for (std::size_t i = 0; i < N; ++i) alike = alike && m.turns[i] == to.turns[i];
+    for (std::size_t i = 0; i < N; ++i) alike = alike && m.phase_cycles[i] == to.phase_cycles[i];
     return alike;
   };
   if (!mesh_fits(p.sun_planet, own.sun_planet) || !mesh_fits(p.ring_planet, own.ring_planet) ||

@@ -74,7 +74,7 @@ struct LinearStage {
 [[nodiscard]] LinearStage linear_stage(const gear::Stage& stage, const Scales& scales);
 
 /// Motions that kinetic energy is told apart by.
-enum class Motion {
+enum class MemberDisplacement {
   sun_translation,
   sun_rotation,
   planet_translation,
@@ -84,15 +84,15 @@ enum class Motion {
   carrier_translation,
   carrier_rotation,
 };
-inline constexpr std::size_t motion_count = 8;
+inline constexpr std::size_t displacement_count = 8;
 
-[[nodiscard]] std::string_view to_string(Motion motion);
+[[nodiscard]] std::string_view to_string(MemberDisplacement displacement);
 
 /// Shares of a mode's elastic and kinetic energy; each kind adds up to 1 (elastic: 0 for rigid motion). Means over the
 /// shapes of a multiple mode, which do not depend on the choice of shapes.
 struct ModalEnergies {
   std::array<double, element_count> elastic{};
-  std::array<double, motion_count> kinetic{};
+  std::array<double, displacement_count> kinetic{};
 };
 
 /// @param planets  N

@@ -70,24 +70,24 @@ void fill_mesh(MeshParameters<double, N>& m, const gear::Mesh& mesh, const std::
   m.stiffness_cos.resize(m.harmonics);
   m.stiffness_sin.resize(m.harmonics);
   for (std::size_t i = 0; i < N; ++i) {
-    m.turns[i] = wrapped(mesh_cycles * (angles_deg[i] - angles_deg[0]) / 360.0 + lead);
+    m.phase_cycles[i] = wrapped(mesh_cycles * (angles_deg[i] - angles_deg[0]) / 360.0 + lead);
     for (std::size_t h = 0; h < m.harmonics; ++h) {
       // A cos h(s + psi) + B sin h(s + psi), psi = 2 pi turns
       const double c = h < mesh.stiffness_cos_N_per_m.size() ? scales.stiffness(mesh.stiffness_cos_N_per_m[h]) : 0.0;
       const double s = h < mesh.stiffness_sin_N_per_m.size() ? scales.stiffness(mesh.stiffness_sin_N_per_m[h]) : 0.0;
-      const double psi = static_cast<double>(h + 1) * two_pi * m.turns[i];
+      const double psi = static_cast<double>(h + 1) * two_pi * m.phase_cycles[i];
       m.stiffness_cos[h][i] = c * std::cos(psi) + s * std::sin(psi);
       m.stiffness_sin[h][i] = s * std::cos(psi) - c * std::sin(psi);
     }
     const double amplitude = scales.displacement(per_planet(mesh.error_amplitude_um, i) * 1e-6);
-    const double theta = two_pi * m.turns[i] + per_planet(mesh.error_phase_deg, i) * radian;
+    const double theta = two_pi * m.phase_cycles[i] + per_planet(mesh.error_phase_deg, i) * radian;
     m.error_cos[i] = amplitude * std::sin(theta);
     m.error_sin[i] = amplitude * std::cos(theta);
   }
   constexpr double rounding = 1e-9;  // of a mesh period
   m.in_phase = true;
-  for (const double turns : m.turns) {
-    const double apart = turns - m.turns[0];
+  for (const double cycles : m.phase_cycles) {
+    const double apart = cycles - m.phase_cycles[0];
     m.in_phase = m.in_phase && std::abs(apart - std::round(apart)) <= rounding;
   }
 }
@@ -123,7 +123,7 @@ template <std::size_t N>
 void append_breakpoints(const MeshParameters<double, N>& mesh, std::vector<double>& phases) {
   const auto append = [&](const std::vector<double>& own_phases) {
     for (std::size_t i = 0; i < N; ++i)
-      for (const double own : own_phases) phases.push_back(wrapped(own - mesh.turns[i]));
+      for (const double own : own_phases) phases.push_back(wrapped(own - mesh.phase_cycles[i]));
   };
   const auto append_of = [&](const auto& track) {
     append(track.breakpoints());
@@ -138,7 +138,7 @@ template <std::size_t N>
 double sampling_interval(const MeshParameters<double, N>& mesh, double common_phase) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < N; ++i) {
-    const double own = common_phase + mesh.turns[i];
+    const double own = common_phase + mesh.phase_cycles[i];
     if (mesh.friction) least = std::min(least, mesh.friction->spacing().at(own));
     if (mesh.stiffness_curve) least = std::min(least, mesh.stiffness_curve->spacing().at(own));
   }
@@ -150,8 +150,8 @@ template <std::size_t N>
 MeshPlaces<N> places(const MeshParameters<double, N>& mesh, double common_phase) {
   MeshPlaces<N> r{};
   for (std::size_t i = 0; i < N; ++i) {
-    if (mesh.friction) r.friction[i] = mesh.friction->place(common_phase + mesh.turns[i]);
-    if (mesh.stiffness_curve) r.stiffness[i] = mesh.stiffness_curve->place(common_phase + mesh.turns[i]);
+    if (mesh.friction) r.friction[i] = mesh.friction->place(common_phase + mesh.phase_cycles[i]);
+    if (mesh.stiffness_curve) r.stiffness[i] = mesh.stiffness_curve->place(common_phase + mesh.phase_cycles[i]);
   }
   return r;
 }

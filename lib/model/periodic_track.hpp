@@ -28,7 +28,7 @@ namespace epicyclic::model {
 
 /// Intervals that make one smooth piece. Their cubics are in powers of v - grid.node(k), v = grid.offset + (phase -
 /// origin) slope; where they do not lie on such a grid, in powers of phase - start, and the grid's number is a guess.
-struct TrackPiece {
+struct TrackSegment {
   std::size_t lo = 0;  ///< first interval
   IntervalGrid grid;
   double start = 0;  ///< phase at which the piece begins
@@ -45,7 +45,7 @@ struct TrackPiece {
 /// The piece that holds a phase, and where: phases are met within half a turn of it, so that they may count whole turns
 /// and a phase on a breakpoint is on the side of the place.
 struct TrackPlace {
-  TrackPiece piece;
+  TrackSegment segment;
   double centre = 0;
 };
 
@@ -90,14 +90,14 @@ class PeriodicTrack {
   /// Values at a phase within half a turn of the place, whole turns apart, by the cubics of its piece.
   template <class T>
   [[nodiscard]] Row<T, K> at(const TrackPlace& place, const T& phase) const {
-    const TrackPiece& piece = place.piece;
+    const TrackSegment& segment = place.segment;
     const T x = phase - T(nearest_whole(static_cast<double>(value_of(phase)) - place.centre));
-    const T v = piece.place(x);
-    std::size_t k = piece.grid.number(static_cast<double>(value_of(v)));
-    T t = v - piece.grid.node(k);
-    k += piece.lo;
-    if (!piece.regular) {
-      k = walked(piece, value_of(x), k);
+    const T v = segment.place(x);
+    std::size_t k = segment.grid.number(static_cast<double>(value_of(v)));
+    T t = v - segment.grid.node(k);
+    k += segment.lo;
+    if (!segment.regular) {
+      k = walked(segment, value_of(x), k);
       t = x - starts_[k];
     }
     if constexpr (std::is_same_v<T, double>) {
@@ -118,29 +118,29 @@ class PeriodicTrack {
   /// What at() does after whole turns are taken off, where intervals do not lie on a grid.
   /// @param x      within half a turn of the place's centre
   /// @param guess  interval that x is in, or near, counted from the piece's first one; any number within the piece
-  [[nodiscard]] Row<double, K> at(const TrackPiece& piece, double x, std::size_t guess) const {
-    const std::size_t k = walked(piece, x, piece.lo + guess);
+  [[nodiscard]] Row<double, K> at(const TrackSegment& segment, double x, std::size_t guess) const {
+    const std::size_t k = walked(segment, x, segment.lo + guess);
     return cubics_at(cubics_[k], x - starts_[k]);
   }
-  [[nodiscard]] const Cubics<K>* cubics(const TrackPiece& piece) const { return cubics_.data() + piece.lo; }
+  [[nodiscard]] const Cubics<K>* cubics(const TrackSegment& segment) const { return cubics_.data() + segment.lo; }
 
  private:
   template <class V>
-  [[nodiscard]] std::size_t walked(const TrackPiece& piece, V x, std::size_t k) const {
-    while (k > piece.lo && x < starts_[k]) --k;
-    while (k < piece.hi() && x >= starts_[k + 1]) ++k;
+  [[nodiscard]] std::size_t walked(const TrackSegment& segment, V x, std::size_t k) const {
+    while (k > segment.lo && x < starts_[k]) --k;
+    while (k < segment.hi() && x >= starts_[k + 1]) ++k;
     return k;
   }
 
   /// @param rows  of the piece, and `beyond` of its neighbours' at either end
   /// @param grid  what they stand on; null: found out
-  void append_piece(const std::vector<TrackRow<K>>& rows, std::size_t beyond, Interpolation interpolation,
-                    const IntervalGrid* grid);
+  void append_segment(const std::vector<TrackRow<K>>& rows, std::size_t beyond, Interpolation interpolation,
+                      const IntervalGrid* grid);
 
   std::vector<double> starts_;  ///< phases where intervals begin; on a grid that counts from its end, where they end
   std::vector<Cubics<K>> cubics_;
   std::vector<Cubics<K>> parameter_cubics_;  ///< their derivatives with respect to a parameter; empty without one
-  std::vector<TrackPiece> pieces_;
+  std::vector<TrackSegment> segments_;
   std::vector<double> breakpoints_;
   RowSpacing spacing_;
 };

@@ -302,7 +302,7 @@ class LaneEnsemble::Impl {
     return work;
   }
   std::size_t evaluations() const { return evaluated_; }
-  std::size_t evaluations_under_way() const { return under_way_; }
+  std::size_t evaluations_in_progress() const { return in_progress_; }
 
  private:
   static constexpr long long all_bits = -1;
@@ -356,7 +356,7 @@ class LaneEnsemble::Impl {
   void evaluate(std::size_t place, const double* y, Numbers& slope) {
     field_.right_hand_side(place - first_place_, y, slope.get());
     ++evaluated_;
-    under_way_ += running_;
+    in_progress_ += running_;
   }
 
   void measure_surfaces(std::size_t place, const double* y, SurfaceValues& surfaces) {
@@ -459,7 +459,7 @@ class LaneEnsemble::Impl {
     if (verdict.accepted < running_)
       kernels_.land(steps_, margin(), field_.surfaces, start_.values.get(), start_.rates.get(), end_.values.get(),
                     end_.rates.get());
-    if (verdict.eventful) look_closer();
+    if (verdict.eventful) handle_events();
     all_at_end_ = verdict.accepted == running_;
     if (verdict.accepted == w_) {
       std::swap(y_, next_);
@@ -480,7 +480,7 @@ class LaneEnsemble::Impl {
   }
 
   /// At events other than stops.
-  void look_closer() {
+  void handle_events() {
     take_last_slopes();
     for (std::size_t lane = 0; lane < w_; ++lane) {
       if (steps_.event[lane] == 0) continue;
@@ -616,7 +616,7 @@ class LaneEnsemble::Impl {
   bool all_at_end_ = false;      ///< all lanes under way are where their last step was to end
   std::size_t first_place_ = 0;  ///< that the field was told
   std::size_t evaluated_ = 0;
-  std::size_t under_way_ = 0;  ///< lanes, summed over evaluations
+  std::size_t in_progress_ = 0;  ///< lanes, summed over evaluations
 };
 
 LaneEnsemble::LaneEnsemble(LaneField field, const IntegratorOptions& options, const StepLoops& kernels)
@@ -644,6 +644,6 @@ double LaneEnsemble::next_step(std::size_t lane) const { return impl_->next_step
 void LaneEnsemble::set_next_step(std::size_t lane, double step) { impl_->set_next_step(lane, step); }
 Work LaneEnsemble::work(std::size_t lane) const { return impl_->work(lane); }
 std::size_t LaneEnsemble::evaluations() const { return impl_->evaluations(); }
-std::size_t LaneEnsemble::evaluations_under_way() const { return impl_->evaluations_under_way(); }
+std::size_t LaneEnsemble::evaluations_in_progress() const { return impl_->evaluations_in_progress(); }
 
 }  // namespace epicyclic::integrate

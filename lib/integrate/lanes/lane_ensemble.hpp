@@ -99,7 +99,7 @@ class LaneEnsemble {
 
   /// Evaluations of the kernel, of all lanes at once, and the lanes that were under way, summed over them.
   [[nodiscard]] std::size_t evaluations() const;
-  [[nodiscard]] std::size_t evaluations_under_way() const;
+  [[nodiscard]] std::size_t evaluations_in_progress() const;
 
  private:
   class Impl;
