@@ -55,7 +55,7 @@ double statistics_ratio(const AttractorRecord& a, const AttractorRecord& b, cons
   if (frequencies == 0) return 0.0;  // too short to prove anything
   double ratio = 0.0;
   const auto compare = [&](const Estimate& x, const Estimate& y, int their_frequencies, double least) {
-    // From half widths of default_confidence to those of the level.
+    // Factor between half widths of default_confidence and those of the level.
     const double factor = student(level, their_frequencies) / student(1.0 - default_confidence, their_frequencies);
     const double counts = std::max(factor * std::hypot(x.half_width, y.half_width), least);
     const double difference = std::abs(x.value - y.value);
@@ -188,12 +188,12 @@ AttractorRecord record_of_section(const PoincareSection& section, Regime regime,
     const double periods = static_cast<double>(points) / static_cast<double>(n);
     const double late = recurrence.late_error;
     const double decay = recurrence.error > 0.0 ? std::pow(late / recurrence.error, 2.0 / periods) : 0.0;
-    // What does not seem to settle may creep by as much again for as long as it was looked at.
+    // A record whose error does not decay may change once more by as much as it did over the record.
     r.orbit_error = late / std::max(1.0 - decay, 1.0 / periods) + map_error * largest(r.orbit);
     return r;
   }
   r.exponent = exponent;
-  // Student's t of more waves is hardly narrower, and each is a sum over the record.
+  // More frequencies hardly narrow Student's t. Each one costs a sum over the record.
   constexpr int most_frequencies = 32;
   r.frequencies = std::clamp(static_cast<int>(points / 16), default_frequencies, most_frequencies);
   r.frequencies = std::min(r.frequencies, static_cast<int>((points - 1) / 2));
@@ -221,7 +221,7 @@ Attractors label_attractors(std::span<const AttractorRecord> records, const Attr
   }
   merge(groups, options);
 
-  // Each record once more, to the nearest: the first ones were asked when there were few to choose from.
+  // Compare each record once more with all groups: the first records had few groups to choose from.
   std::vector<std::vector<std::size_t>> members(groups.size());
   for (const Group& group : groups)
     for (const std::size_t k : group.members()) {

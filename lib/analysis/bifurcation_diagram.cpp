@@ -91,7 +91,7 @@ TreeStep BifurcationDiagram::next_orbit() {
         see(std::move(point), step);
         continue;
       }
-      // Behind it the same orbits come again, begun at another period or turned.
+      // Behind it the same orbits come again, begun at another period or rotated by the symmetry.
       step.limit = {BranchEnd::none, true, known_place(point), {}};
       step.orbit = std::move(point.orbit);
       break;
@@ -149,7 +149,8 @@ void BifurcationDiagram::apply(TreeStep step) {
   std::move(step.same_as.begin(), step.same_as.end(), std::back_inserter(same_as_));
   // Before starts of others, which may be on what leaves here.
   const auto others = std::find_if(starts_.begin(), starts_.end(), [](const BranchStart& s) { return !s.from; });
-  // Of no elements libstdc++'s deque moves those before the place onto themselves, which empties their vectors.
+  // With an empty range, libstdc++'s deque moves the elements before the place onto themselves, which empties their
+  // vectors.
   if (!step.branch_switches.empty())
     starts_.insert(others, std::make_move_iterator(step.branch_switches.begin()),
                    std::make_move_iterator(step.branch_switches.end()));
@@ -246,7 +247,7 @@ std::optional<SpecialPlace> BifurcationDiagram::place_behind(const BranchOrbit& 
   const Eigen::MatrixXd states = period_states(family_, last.at);
   const double away = std::abs(beyond - last.at.value);
   std::optional<SpecialPlace> nearest;
-  // Of what is born there, orbits are no further from it than from each other.
+  // Orbits of a branch that begins there are no further from it than from each other.
   double least = 2.0 * distance_to_simpler(family_, last.at);
   for (std::size_t b = 0; b < branches_.size(); ++b)
     for (std::size_t k = 0; k < branches_[b].special.size(); ++k) {
@@ -270,7 +271,7 @@ std::optional<SpecialPlace> BifurcationDiagram::known_place(const SpecialPoint& 
     if (p.kind != SpecialKind::period_doubling && p.kind != SpecialKind::branch_point) return false;
     if (std::abs(p.value - point.value) > options_.same_value * family_.value_scale) return false;
     const Eigen::MatrixXd at = period_states(other, p.orbit.at);
-    // Of the period of the other branch, which may be half of ours.
+    // The states of one period of the other branch, which may be half of this one.
     const Eigen::Index n = at.cols();
     return n > 0 && n <= states.cols() && are_images(at, states.leftCols(n), family_.symmetry, difference);
   };
@@ -283,7 +284,7 @@ std::optional<SpecialPlace> BifurcationDiagram::known_place(const SpecialPoint& 
 bool BifurcationDiagram::ended_at_the_birth_of(const Branch& branch, const BranchStart& start) const {
   if (!start.from || branch.family.period != start.period) return false;
   const SpecialPoint& birth = branches_[start.from->branch].special[start.from->point];
-  // One branch leaves a flip that keeps the symmetry, and no more.
+  // At a period doubling that keeps the symmetry exactly one branch begins.
   if (birth.kind != SpecialKind::period_doubling || birth.symmetry_index != 0) return false;
   const auto ends_there = [&](const BranchLimit& limit) {
     return limit.born && limit.place && limit.place->branch == start.from->branch &&

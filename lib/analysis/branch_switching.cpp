@@ -37,7 +37,7 @@ std::vector<Eigen::VectorXd> directions(const OrbitFamily& family, const Special
     return all;
   }
   const Eigen::VectorXcd v = block->basis * right_null_vector(block_of(*block, m).cyclic(at)).head(block->basis.cols());
-  // Of a real block v is real but for a factor of modulus 1.
+  // For a real block, v is real up to a factor of modulus 1.
   Eigen::Index largest = 0;
   v.cwiseAbs().maxCoeff(&largest);
   const std::complex<double> phase_factor = std::conj(v(largest)) / std::abs(v(largest));
@@ -47,7 +47,7 @@ std::vector<Eigen::VectorXd> directions(const OrbitFamily& family, const Special
   return all;
 }
 
-/// The way from z to what its states become with y_0 + v, v small.
+/// The derivative of the states at all shooting intervals with respect to y_0, along v; v is small.
 std::optional<CurvePoint> direction_at_intervals(const OrbitFamily& family, const CurvePoint& z,
                                                  const Eigen::VectorXd& v) {
   constexpr double little = 1e-5;
@@ -79,7 +79,7 @@ Correction orbit_beside(const OrbitFamily& other, const CurvePoint& base, const 
                         const SwitchOptions& options, bool in_plane) {
   const auto at = [&](double distance) { return correct(other, base + distance * normal, normal); };
   Correction c = at(options.distance);
-  // A fold nearer than that would be passed unseen: there the parameter turns.
+  // A step could pass a fold that is nearer than that: at the fold the parameter reverses.
   double distance = options.distance;
   constexpr int nearer_ones = 4;
   for (int k = 0; k < nearer_ones && c.found; ++k) {
@@ -109,7 +109,7 @@ void SwitchOptions::validate() const {
 
 Eigen::MatrixXd period_states(const OrbitFamily& family, const CurvePoint& at) {
   Eigen::MatrixXd y(at.states.rows(), family.period);
-  // As many pieces as periods begin where these do.
+  // One shooting interval per period: the intervals begin where the periods do.
   y.col(0) = at.states.col(0);
   if (!integrate_to_intervals(*family.flows(at.value), family.period, y).reached())
     return Eigen::MatrixXd(at.states.rows(), 0);

@@ -17,12 +17,12 @@ constexpr int samples_per_period = 128;
 
 std::span<double> span_of(Eigen::VectorXd& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
 
-/// One surface between two looks.
+/// One surface at one sample.
 struct Sample {
   double s = 0, value = 0, rate = 0;
 };
 
-/// Extremum of the cubic through two looks whose rates differ in sign.
+/// Extremum of the cubic through two samples whose rates differ in sign.
 double cubic_extremum(const Sample& a, const Sample& b, bool least) {
   const double h = b.s - a.s;
   // v(x) = a + h a' x + c2 x^2 + c3 x^3, x in [0, 1].
@@ -37,7 +37,7 @@ double cubic_extremum(const Sample& a, const Sample& b, bool least) {
   return best;
 }
 
-/// Sees every pair of neighbouring looks on a stretch.
+/// Passes every pair of neighbouring samples on a stretch to a function.
 class Watch {
  public:
   explicit Watch(integrate::Flow& flow)
@@ -112,13 +112,14 @@ std::optional<double> contact_extremum(const OrbitFamily& family, const CurvePoi
   const std::vector<Stretch> all = stretches(*flow, orbit.states, family.period);
   if (all.empty()) return std::nullopt;
   Watch watch(*flow);
-  // The looks about the extremum, and the stretch that they are on.
+  // The samples about the extremum, and their stretch.
   double best = least ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
   const Stretch* on = nullptr;
   double low = 0.0;
   double high = 0.0;
   const auto better = [&](double value) { return least ? value < best : value > best; };
-  // Where stretches meet the motion is only as continuous as the orbit is closed: an extremum there may be on neither.
+  // Between two stretches the trajectory is only as continuous as the orbit is closed: an extremum there may be on
+  // neither.
   std::optional<Sample> begun, ended;
   const auto meet = [&](const Sample& end, const Sample& begin) {
     const double value = 0.5 * (end.value + begin.value);
@@ -158,7 +159,7 @@ std::optional<double> contact_extremum(const OrbitFamily& family, const CurvePoi
   };
   const Sample first = sample_at(low);
   const Sample last = sample_at(high);
-  // Flat at the resolution of the looks' own interpolation: one end is the extremum.
+  // The value is flat at the resolution of the interpolation between samples: one end is the extremum.
   if (!(first.rate * last.rate < 0.0))
     return least ? std::min(first.value, last.value) : std::max(first.value, last.value);
   // The value is off by the square of what the place is.

@@ -70,7 +70,7 @@ void check_neutral(const OrbitFamily& family, double value, std::span<const doub
   constexpr double dependent = 1e-10;
   if (c.cols() > n || !(r.cwiseAbs().minCoeff() > dependent * c.colwise().norm().maxCoeff()))
     throw InputError("neutral directions depend on each other");
-  // Of shifts as long as the state's scale and longer, by differences of sums of a few terms.
+  // Rounding of differences of sums of a few terms, for shifts at least as long as the state's scale.
   constexpr double rounding = 1e-9;
   const Eigen::MatrixXd& s = family.symmetry.map;
   if (s.size() != 0)

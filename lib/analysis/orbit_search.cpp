@@ -59,7 +59,7 @@ double states_length(const OrbitFamily& family, const Eigen::MatrixXd& states) {
   return std::sqrt(states.squaredNorm() / static_cast<double>(states.size())) / family.state_scale;
 }
 
-/// Newton's steps at one place, with the states of all pieces condensed to y_0.
+/// Newton's steps at one place, with the states of all shooting intervals condensed to y_0.
 class Linearised {
  public:
   Linearised(const Eigen::MatrixXd& kept, const Shot& shot) : kept_(kept) {
@@ -129,7 +129,7 @@ class Deflation {
   std::vector<Eigen::VectorXd> known_;
 };
 
-/// Where one start's way ended.
+/// Result of Newton's method from one start.
 struct NewtonRun {
   std::optional<BranchOrbit> orbit;
   SearchFailure why = SearchFailure::no_descent;
@@ -179,7 +179,7 @@ NewtonRun follow(const OrbitFamily& family, double value, const Eigen::VectorXd&
     if (!std::isfinite(level)) return failed(SearchFailure::no_descent, "the deflated equations are singular");
     const double longest = std::min(1.0, options.max_step / level);
     damping = std::min(longest, 2.0 * damping);
-    // Where the equations are nearly singular steps are long ones: their least part is one of the longest allowed.
+    // If the equations are nearly singular, steps are long: the least one is a part of the longest one allowed.
     const double least = options.least_damping * damping;
     std::optional<Eigen::MatrixXd> next;
     for (; !next && damping >= least; damping *= 0.5) {
@@ -207,7 +207,7 @@ NewtonRun follow(const OrbitFamily& family, double value, const Eigen::VectorXd&
   return failed(SearchFailure::iterations, "not at an orbit after " + std::to_string(options.iterations) + " steps");
 }
 
-/// A start, and the states of its motion at the beginnings of periods.
+/// A start, and the states of its trajectory at the beginnings of periods.
 struct Trajectory {
   std::vector<Eigen::VectorXd> states;
 
@@ -274,7 +274,7 @@ struct Candidate {
   std::size_t start = 0;
 };
 
-/// @returns nothing if it could not be carried
+/// @returns nothing if the integration failed
 std::optional<Candidate> candidate(const OrbitFamily& family, const BranchOrbit& orbit, double map_error) {
   Candidate c{family, orbit, period_states(family, orbit.at), 0.0, 0};
   if (c.states.cols() == 0) return std::nullopt;
@@ -289,7 +289,7 @@ Candidate at_least_period(const OrbitFamily& system, Candidate c, double map_err
   const double largest = c.states.lpNorm<Eigen::Infinity>();
   for (int d = 1; d < n; ++d) {
     if (n % d != 0) continue;
-    // What does not come near itself need not be asked.
+    // An orbit that is not nearly closed after d periods does not have the period d.
     constexpr double comes_back = 1e-2;
     if (!((c.states.col(d) - c.states.col(0)).lpNorm<Eigen::Infinity>() <= comes_back * largest)) continue;
     const OrbitFamily shorter = of_period(system, d);
@@ -305,7 +305,7 @@ Candidate at_least_period(const OrbitFamily& system, Candidate c, double map_err
   return c;
 }
 
-/// What one start's ways of one kind came to.
+/// Results of one start's runs of one kind.
 struct StartRuns {
   std::vector<Candidate> led_to;
   SearchFailure why = SearchFailure::no_descent;  ///< of the last one that failed
@@ -335,7 +335,7 @@ std::vector<FoundOrbit> distinct_orbits(const OrbitFamily& system, const std::ve
   for (const Candidate& c : candidates) records.push_back(record_of(c.states, c.error));
   const Attractors attractors = label_attractors(records, {}, maps);
 
-  // Of each attractor the first one that it is an image of.
+  // The first attractor that each one is an image of.
   std::map<std::size_t, std::vector<std::size_t>> members;
   for (std::size_t a = 0; a < attractors.all.size(); ++a) {
     std::size_t first = a;
@@ -357,7 +357,8 @@ std::vector<FoundOrbit> distinct_orbits(const OrbitFamily& system, const std::ve
       std::vector<AttractorRecord> images = {record_of(c.states, c.error)};
       for (const Eigen::MatrixXd& rotation : rotations) images.push_back(rotated(images.front(), rotation));
       f.images = static_cast<int>(label_attractors(images).all.size());
-      // A wave that travels is the same orbit turned, begun at another period: its states are not kept.
+      // A travelling disturbance is the same orbit rotated, begun at another period: the symmetry does not keep its
+      // states.
       const AttractorRecord state = record_of(c.states.leftCols(1), c.error);
       f.family.keeps_symmetry = are_one(state, rotated(state, symmetry.map));
       if (f.family.keeps_symmetry && !c.family.keeps_symmetry) {
@@ -379,7 +380,7 @@ std::vector<FoundOrbit> distinct_orbits(const OrbitFamily& system, const std::ve
   return found;
 }
 
-/// All that is known of periods that divide n, begun at each of its periods and turned.
+/// All known orbits whose periods divide n, begun at each of their periods and rotated by the symmetry.
 Deflation known_of(const OrbitFamily& family, const std::vector<FoundOrbit>& found) {
   const CyclicSymmetry& symmetry = family.symmetry;
   std::vector<Eigen::VectorXd> known;

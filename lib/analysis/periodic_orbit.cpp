@@ -80,7 +80,7 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
   Eigen::MatrixXd y(static_cast<Eigen::Index>(start.size()), options.shooting_intervals);
   y.col(0) = as_vector(start);
   double best = std::numeric_limits<double>::infinity();
-  // Of the best iteration alone, where it is asked for, and once: its singular values cost more than the step.
+  // The error of the best iteration alone, on request, and once: its singular values cost more than the step.
   double reported = best;
   const auto report_error = [&] {
     if (reported == best) return;
@@ -124,7 +124,7 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
       orbit.message = "the residual stays at " + short_text(best);
       return orbit;
     }
-    // Beside a chaotic motion there is no orbit to be found: four iterations that gain nothing are enough.
+    // Beside a chaotic trajectory there may be no orbit: stop after four iterations without progress.
     constexpr int patience = 4;
     constexpr double gain = 0.1;
     if (k + 1 >= patience && best > gain * orbit.residuals.front()) break;
@@ -170,7 +170,7 @@ bool FloquetMultipliers::stable() const {
 
 namespace {
 
-/// M as it was found, piece by piece.
+/// M as it was found, one factor per shooting interval.
 MatrixProduct factors_of(const PeriodicOrbit& orbit) {
   if (!orbit.interval_maps.empty()) return {orbit.interval_maps};
   return orbit.monodromy.size() == 0 ? MatrixProduct{} : MatrixProduct{{orbit.monodromy}};

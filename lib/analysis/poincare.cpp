@@ -99,7 +99,7 @@ SurfaceSection surface_section(integrate::Flow& flow, std::span<double> state,
   struct Sample {
     double s = 0;
     std::vector<double> y;
-    double side = 0;  ///< h, its sign turned so that crossings rise
+    double side = 0;  ///< h, with the sign for which the crossings rise
   };
   const double sign = direction == SectionCrossing::rising ? 1.0 : -1.0;
   const auto sample = [&](double s, std::span<const double> y) {
@@ -206,7 +206,7 @@ double extent(const PoincareSection& section) {
 
 bool still_converging(const Recurrence& r, double tolerance) {
   constexpr double small = 100.0;  // an error beyond this many tolerances is not the tail of a transient
-  constexpr double falling = 0.8;  // chaos and quasiperiodic motion have the same error early and late
+  constexpr double falling = 0.8;  // chaotic and quasiperiodic trajectories have the same error early and late
   return r.period == 0 && r.error <= small * tolerance && r.late_error <= falling * r.error;
 }
 

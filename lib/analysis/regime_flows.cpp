@@ -17,7 +17,7 @@ integrate::IntegratorOptions scaled(integrate::IntegratorOptions o, double facto
 
 }  // namespace
 
-/// What is made on the way.
+/// The flow, with its intermediate results.
 struct RegimeFlows::Tighter {
   integrate::IntegratorOptions integrator;  ///< of the last ones
   integrate::FlowMaker make_flow;

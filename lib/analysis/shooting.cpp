@@ -9,16 +9,16 @@ namespace epicyclic::analysis {
 
 namespace {
 
-/// From one s to another within a period of the forcing.
+/// Interval of s within a period of the forcing.
 struct Span {
   double from = 0;
   double to = 0;
 };
 
-/// Piece `i` of `pieces` of n periods, cut where periods end, so that each begins at the phase 0 to the last bit.
+/// Shooting interval `i` of n periods, cut where periods end, so that each part begins at the phase 0 to the last bit.
 std::vector<Span> spans(double period, Eigen::Index n, Eigen::Index shooting_intervals, Eigen::Index i) {
   std::vector<Span> all;
-  // In parts of 1 / pieces of a period.
+  // In units of a period over the number of shooting intervals.
   const auto phase = [&](Eigen::Index parts) {
     return period * static_cast<double>(parts) / static_cast<double>(shooting_intervals);
   };

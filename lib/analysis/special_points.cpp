@@ -157,7 +157,7 @@ class Event {
     return between_neighbours(a_, b_, block_ != nullptr ? block_->symmetry_index : 0, to_string(kind_) + ": " + note);
   }
 
-  /// Of another sign on each side of the event, whatever else happens to the multipliers.
+  /// Has opposite signs on the two sides of the event, whatever else happens to the multipliers.
   [[nodiscard]] double sign_function(const BranchOrbit& orbit) const {
     if (kind_ == SpecialKind::grazing) return nearest_to_the_surface(family_, orbit);
     if (parameter_extremum_) return orbit.direction.value;
@@ -185,7 +185,7 @@ class Event {
     return *value;
   }
 
-  /// To a thousandth of the way from a to b.
+  /// To a thousandth of the distance from a to b.
   void bracket() {
     constexpr double width = 1e-3;
     const auto function = [&](double part) {
@@ -206,8 +206,8 @@ class Event {
 
   /// Is it a pair, or are it two real ones of parts that are alike?
   void classify_double() {
-    // Of the way from a to b they are a thousandth away, and so is what the null space of two is known by. A pair that
-    // meets at +1 or -1 has one eigenvector there: the second singular value is of the order of 1.
+    // They may be a thousandth of the distance from a to b away, and the second singular value as far from 0. A pair
+    // that meets at +1 or -1 has one eigenvector there: the second singular value is of the order of 1.
     constexpr double near = 1e-2;
     for (const double at : {1.0, -1.0}) {
       if (!(std::abs(expected_ - at) < near)) continue;
@@ -277,12 +277,13 @@ class Event {
     return correct(family, *at, (1.0 / little) * (*ahead - *at));
   }
 
-  /// Where branches cross, the orbits of both are solutions and the equations singular: from three orbits on each side.
+  /// At a crossing of branches, the orbits of both are solutions, and the equations are singular. The place follows
+  /// from three orbits on each side.
   [[nodiscard]] std::optional<Place> from_beside(const OrbitFamily& family) const {
     const Correction a = recut(family, a_);
     const Correction b = recut(family, b_);
     if (!a.found || !b.found) return std::nullopt;
-    constexpr double apart = 0.05;  // in parts of the way from a to b
+    constexpr double apart = 0.05;  // in parts of the distance from a to b
     constexpr std::array<double, 6> beside = {-3.0 * apart, -2.0 * apart, -apart, apart, 2.0 * apart, 3.0 * apart};
     const double at_a = sign_function(a_);
     double root = at_a / (at_a - sign_function(b_));
@@ -403,8 +404,8 @@ class Event {
   int nullity_ = 1;
 };
 
-/// Is a turn of the parameter without a crossing a pitchfork, seen from the branch that is born there? The multiplier
-/// touches 1 then and is on one side before and behind; where it is not, a fold stands beside a branch point.
+/// Is an extremum of the parameter without a crossing a pitchfork, seen from the branch that begins there? The
+/// multiplier touches 1 there and is on one side before and behind. Otherwise a fold stands beside a branch point.
 bool parameter_extremum_at_pitchfork(const OrbitFamily& family, const InvariantBlock& block, const BranchOrbit& a,
                                      const BranchOrbit& b) {
   const Signs at_a = signs_of(block, a);
@@ -413,7 +414,7 @@ bool parameter_extremum_at_pitchfork(const OrbitFamily& family, const InvariantB
       at_a.outside != at_b.outside)
     return false;
   const double root = a.direction.value / (a.direction.value - b.direction.value);
-  // So far from the turn that the multiplier is clear of 1.
+  // So far from the extremum that the multiplier is clear of 1.
   constexpr double aside = 0.15;
   const Correction before = between(family, a, b, root - aside);
   const Correction behind = between(family, a, b, root + aside);
@@ -424,13 +425,14 @@ bool parameter_extremum_at_pitchfork(const OrbitFamily& family, const InvariantB
          right.plus == at_a.plus;
 }
 
-/// Are as many other multipliers beyond the unit circle at an event as on the better side of it? If not, it is not the
-/// only one between the two: a flip inwards and a torus outwards look like a flip outwards.
+/// Are as many other multipliers beyond the unit circle at an event as on the better side of it? If not, another event
+/// lies between the two orbits: a period doubling inwards and a torus outwards have the counts of a period doubling
+/// outwards.
 bool is_the_only_one(const InvariantBlock& block, SpecialKind kind, const SpecialPoint& point, const BranchOrbit& a,
                      const BranchOrbit& b) {
   const Signs at_a = signs_of(block, a);
   const Signs at_b = signs_of(block, b);
-  // A turn that nothing crosses at has the multiplier on the same side before and behind.
+  // At an extremum of the parameter without a crossing, the multiplier is on the same side before and behind.
   if (at_a.outside == at_b.outside) return true;
   Multipliers others = multipliers_of(block, point.orbit.monodromy);
   const auto leave_out = [&](std::complex<double> critical) {
@@ -458,7 +460,7 @@ bool stays_on_the_circle(const OrbitFamily& family, const InvariantBlock& block,
     for (const Refinement& other : options.others) {
       OrbitFamily finer = family;
       finer.flows = other.flows;
-      // By the same pieces: as the states stand.
+      // With the same shooting intervals: the states are those at their beginnings.
       if (const Correction c = correct(finer, orbit->at, orbit->direction); c.found)
         error = std::max(error, std::abs(nearest(multipliers_of(block, c.orbit.monodromy), x) - x));
     }
@@ -542,7 +544,7 @@ void SpecialOptions::validate() const {
 std::vector<SpecialPoint> special_points_between(const OrbitFamily& family, const BranchOrbit& a, const BranchOrbit& b,
                                                  const SpecialOptions& options) {
   options.validate();
-  // Of what is left after as many, neighbours differ by 1e-6 of their distance.
+  // After this number of halvings, neighbours differ by 1e-6 of their distance.
   constexpr int halvings = 20;
   std::vector<SpecialPoint> found;
   for (const InvariantBlock& block : invariant_blocks(static_cast<std::size_t>(a.at.states.rows()), family.kept()))

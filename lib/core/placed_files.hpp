@@ -18,7 +18,7 @@ class PlacedFiles {
   explicit PlacedFiles(Listener listener);
   PlacedFiles(const PlacedFiles&) = delete;
   PlacedFiles& operator=(const PlacedFiles&) = delete;
-  /// Waits for calls under way.
+  /// Waits for running calls.
   ~PlacedFiles();
 
  private:

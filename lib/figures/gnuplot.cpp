@@ -68,7 +68,7 @@ std::string text_of(double value) {
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-/// What gnuplot said, as one line without its picture of where in the line the error is.
+/// The message of gnuplot as one line, without the marks below the place of the error.
 std::string one_line(std::string_view complaint) {
   std::string line;
   for (const char character : complaint) {
@@ -90,11 +90,11 @@ std::chrono::milliseconds limit_for(fs::path script) {
   return std::max<std::chrono::milliseconds>(last_limit, limit / (1 << std::min(most_halves, hung_in_a_row.load())));
 }
 
-/// What a child process has said, its last words at least, and how it ended.
+/// Output of a child process, at least its last words, and how it ended.
 struct Ended {
   std::string words;
   std::optional<int> status;  ///< of waitpid; nothing: it had to be ended
-  int error = 0;              ///< of a child that cannot be asked
+  int error = 0;              ///< of a child whose state cannot be read
 };
 
 /// Reads once from a pipe, when there is something within the time.
@@ -332,8 +332,7 @@ bool from_the_right(char32_t point) {
          between(point, 0x10800, 0x10fff) || between(point, 0x1e800, 0x1efff);
 }
 
-/// Not in the font that figures ask for, as far as one can say without looking: beyond Latin, Greek, Cyrillic and
-/// signs.
+/// Probably not in the font of the figures: beyond Latin, Greek, Cyrillic and signs.
 bool is_rare(char32_t point) {
   return point >= 0x0530 && !between(point, 0x1e00, 0x23ff) && !between(point, 0x2500, 0x27bf) && point != no_character;
 }
@@ -413,8 +412,8 @@ struct Head {
   double height = 0;     ///< from the upper edge of the canvas to the frame [pixels]
 };
 
-/// The title as an expression. Where no font has a character, pngcairo blackens the figure with a sign for it as large
-/// as that: there the PNG file, which cannot do better, shows no_character.
+/// The title as an expression. If no font has a character, pngcairo covers the figure with a sign for it. In that case
+/// the PNG file shows no_character instead.
 std::string title_expression(const std::string& title) {
   std::vector<char32_t> points = code_points(title);
   std::string rare;
@@ -433,7 +432,7 @@ std::string title_expression(const std::string& title) {
       png, rare, gnuplot_quoted(plain), gnuplot_quoted(title));
 }
 
-/// Of names on edge below the frame, beyond the height of a number [pixels].
+/// Height of names on edge below the frame, beyond the height of a number [pixels].
 double room_of_names(const FigureText& text) {
   double longest = 0.0;
   for (const auto& [at, name] : text.x_names) longest = std::max(longest, text_width(name));
@@ -457,7 +456,7 @@ std::string second_abscissa_of(const FigureText& text, const FigureRange& x) {
       gnuplot_quoted(portable_text(text.above->label)));
 }
 
-/// Of a text with gnuplot's markup, the characters that are drawn.
+/// The characters of a text with gnuplot's markup that are drawn.
 std::u32string seen_characters(std::string_view text) {
   std::u32string seen;
   bool escaped = false;
@@ -632,7 +631,7 @@ FigureOutcome run_gnuplot(const fs::path& script, Pictures which, std::optional<
 }
 
 std::string gnuplot_quoted(std::string_view text) {
-  // In single quotes nothing has a meaning, but gnuplot loses its way between two apostrophes side by side.
+  // In single quotes no character has a meaning, but gnuplot misreads two apostrophes side by side.
   const bool single = text.find('\'') == std::string_view::npos;
   constexpr std::string_view meaning = "\"\\`@";
   std::string quoted;

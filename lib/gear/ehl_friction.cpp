@@ -15,7 +15,7 @@ namespace epicyclic::gear {
 
 namespace {
 
-/// Share of the load that a pair carries along its path.
+/// The load of a pair along its path, as a share of the load of the mesh.
 class LoadShare {
  public:
   explicit LoadShare(const EhlFriction& e) : e_(e) {

@@ -48,7 +48,7 @@ PathBreakpoints path_breakpoints(double contact_ratio, double path_start_mm, con
     breakpoints.push_back(contact_ratio - j);
     breakpoints.push_back((line.pitch_arm_mm - path_start_mm) / line.base_pitch_mm - j);
   }
-  // A piece shorter than this cannot be told from rounding of the input.
+  // A part shorter than this is within the rounding of the input.
   constexpr double phase_resolution = 1e-9;
   std::erase_if(breakpoints, [](double p) { return p < 0.0 || p > 1.0 - phase_resolution; });
   std::sort(breakpoints.begin(), breakpoints.end());

@@ -54,7 +54,7 @@ using PathBreakpoints = std::vector<double>;
 
 /// Both sides of each breakpoint.
 ///
-/// @param rows  FittedRows<3> (double from, double to): force, moment_1 and moment_2 on the piece between
+/// @param rows  FittedRows<3> (double from, double to): force, moment_1 and moment_2 between two breakpoints
 template <class F>
 [[nodiscard]] FrictionTable tabulate(const PathBreakpoints& breakpoints, F rows) {
   FrictionTable table;

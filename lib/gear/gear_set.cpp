@@ -203,7 +203,7 @@ void check_accuracy(Problems& out, const GearSet& set) {
   member(ring_pointer, c.ring.accuracy_grade, set.ring, set.ring_planet.contact_ratio());
 }
 
-/// Tells each member whose data make no tooth.
+/// Reports each member whose data make no tooth.
 bool each_tooth_exists(Problems& out, const Catalogue& c) {
   const bool sun = tried(out, sun_pointer, [&] { (void)external_tooth(c.sun.data); });
   const bool planet = tried(out, planet_pointer, [&] { (void)external_tooth(c.planet.data); });

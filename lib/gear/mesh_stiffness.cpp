@@ -14,14 +14,14 @@ namespace epicyclic::gear {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-// Contact ratios that differ less from a whole number make no piece of their own.
+// Contact ratios that differ less from a whole number make no smooth part of their own.
 constexpr double phase_resolution = 1e-9;
 constexpr int panels = 4;
 
 /// The phase of the same contact in [0, 1).
 double in_period(double phase) { return phase - std::floor(phase); }
 
-/// Calls f(from, to, inside) for each smooth piece of a period.
+/// Calls f(from, to, inside) for each smooth part of a period.
 template <class F>
 void for_smooth_parts(const MeshedPair& mesh, F f) {
   const std::vector<double> breaks = mesh.breakpoints();

@@ -76,7 +76,7 @@ double Pair::backlash_mm() const {
   const double r_2 = pitch_radius_2_mm();
   const double pitch = 2.0 * pi * r_1 / driving.teeth;
   const double backlash = pitch - driving.thickness_at(r_1) - driven.thickness_at(r_2);
-  // What rounding leaves of the terms of a mesh without backlash is none.
+  // For a mesh without backlash the sum of the terms is rounding: the result is then 0.
   constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
   return std::abs(backlash) <= rounding * pitch ? 0.0 : backlash;
 }

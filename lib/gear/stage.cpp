@@ -12,7 +12,7 @@ namespace {
 // How far printed radii, centre distance, angle and teeth may disagree: five digits are what catalogues give.
 constexpr double radii_tolerance = 1e-4;
 constexpr double angle_tolerance_deg = 0.02;
-// Rows of a friction table nearer than this cannot be told apart once they are shifted by a phase.
+// Rows of a friction table nearer than this coincide after a shift by a phase.
 constexpr double phase_resolution = 1e-9;
 // Neighbouring planets nearer than this have no room for teeth.
 constexpr double angle_resolution_deg = 1e-6;
@@ -146,7 +146,7 @@ void check_stiffness(Problems& out, const std::string& pointer, const Mesh& mesh
   for (const auto* amplitudes : {&c, &s})
     for (const double amplitude : *amplitudes) swing += std::abs(amplitude);
   constexpr double rounding = 1e-12;  // of the sums
-  // Harmonics that together are less than the mean leave it positive everywhere: no need to look.
+  // Harmonics that together are less than the mean leave the stiffness positive everywhere: no need to sample it.
   if (swing < (1.0 - rounding) * mesh.stiffness_N_per_m) return;
   double lowest = mesh.stiffness_N_per_m;
   for (int k = 0; k < samples; ++k) {

@@ -44,7 +44,7 @@ std::size_t segment_at(const std::vector<double>& breakpoints, double s) {
 
 namespace {
 
-/// Is turning by one planet a symmetry without a shift in time?
+/// Is a rotation by one planet a symmetry without a shift in time?
 template <std::size_t N>
 bool planets_alike(const Parameters<double, N>& p) {
   constexpr double rounding = 1e-9;
@@ -90,7 +90,7 @@ void remove_synchronous(Layout layout, const Parameters<double, N>& p, std::span
   }
 }
 
-/// The instant of what looks at deflections alone: stiffness and friction in tables are not looked up.
+/// Coefficients for deflections alone: without the tables of stiffness and friction.
 template <std::size_t N>
 PhaseCoefficients<double, N> without_tables(const Parameters<double, N>& p, double s) {
   return {p, HarmonicBasis<double>(sine_cosine(s), harmonics_of(p))};

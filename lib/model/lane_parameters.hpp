@@ -21,8 +21,8 @@ namespace epicyclic::model {
 /// The interval of its table that each lane is in.
 template <std::size_t W>
 struct LaneInterval {
-  Lanes<W> x;           ///< phase without whole turns
-  LaneWords<W> number;  ///< counted from the piece's first one; a guess where intervals are on no grid
+  Lanes<W> x;           ///< phase without whole periods
+  LaneWords<W> number;  ///< counted from the first one of the segment; a guess where intervals are on no grid
   Lanes<W> t;           ///< what is beyond its start, where they are
 };
 
@@ -54,7 +54,7 @@ struct LanePlace {
     for (std::size_t k = 0; k < W; ++k) regular = regular && track[k] != nullptr && track_segments[k].regular;
   }
 
-  /// @param phase  each lane's, within half a turn of its place, whole turns apart
+  /// @param phase  each lane's, within half a period of its place, modulo whole periods
   [[nodiscard]] LaneInterval<W> find(const Lanes<W>& phase) const {
     LaneInterval<W> found;
     found.x = phase - nearest_whole(phase - centre);

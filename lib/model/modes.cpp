@@ -16,7 +16,7 @@ namespace {
 constexpr double same_frequency = 1e-7;
 // Squares of rigid-body frequencies come out at rounding level of the largest square.
 constexpr double rigid_body_square = 1e-11;
-// A share of motion below this is none: rounding of eigenvectors, squared, with a wide margin.
+// A share of kinetic energy below this is none: rounding of eigenvectors, squared, with a wide margin.
 constexpr double no_share = 1e-9;
 
 template <std::size_t N>
@@ -93,19 +93,19 @@ class Assembly {
   LinearStage linear_;
 };
 
-/// Orthonormal basis of the motions that the constraints leave free.
+/// Orthonormal basis of the displacements that the constraints leave free.
 Eigen::MatrixXd free_displacements(const LinearStage& linear) {
   const Eigen::Index n = linear.mass.size();
   if (linear.constraints.rows() == 0) return Eigen::MatrixXd::Identity(n, n);
   return null_space(linear.constraints);
 }
 
-/// M-weighted shares of a shape's motion.
+/// M-weighted shares of a shape's displacement.
 struct Shares {
   double central_translation = 0, central_rotation = 0;
 };
 
-/// Diagonal weights that tell the two kinds of central motion apart: 1 and 2; planets 0.
+/// Diagonal weights of the two kinds of central displacement: 1 and 2; planets 0.
 Eigen::VectorXd central_weights(int planets) {
   const auto n = static_cast<std::size_t>(planets);
   Eigen::VectorXd w = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(degrees_of_freedom(Layout::full, n)));

@@ -1,7 +1,7 @@
 // Dimensionless constants of one operating point, folded once before integration.
 //
 // Everything that a right-hand side needs and nothing that it could compute itself: sines and cosines of fixed angles,
-// inverse masses, Fourier coefficients already turned into each planet's phase, so that with s the common mesh phase
+// inverse masses, Fourier coefficients already rotated to each planet's phase, so that with s the common mesh phase
 //
 //   s_spi = s - z_s (phi_i - phi_1) ,  s_rpi = s + z_r (phi_i - phi_1) + 2 pi lambda_sr                  [M-phase]
 //   k_i(s) = k_0 + sum_h [ C_hi cos h s + S_hi sin h s ]  or a table over s_i                            [M-4]
@@ -96,7 +96,7 @@ template <std::size_t N>
 /// @param stage   passes gear::problems_for_dynamics()
 /// @param scales  those of the stage as given, whatever a sweep has changed in `stage` since
 /// @param mesh_frequency_ratio Omega [-]
-/// @param like    whose computed tables' grids are taken, so that rows can be compared; null: as their errors ask
+/// @param like    whose computed tables' grids are taken, so that rows can be compared; null: as their errors require
 /// @throws InputError for options that do not fit the boundary
 template <std::size_t N>
 [[nodiscard]] Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& scales,

@@ -42,8 +42,8 @@ struct MeshCoefficients {
   Row<P, N> stiffness;                                ///< k_i(s)
   Row<P, N> friction, moment_driving, moment_driven;  ///< A, B_1 / r_b1, B_2 / r_b2; only with friction
   /// Planets that mesh in phase have one stiffness and one friction, and lanes take them once, as those of planet 0.
-  /// Where planets are in registers nothing is gained by it, and where constants carry derivatives they are each
-  /// planet's own.
+  /// This saves nothing if one register holds all planets. If constants have derivatives, the values are each planet's
+  /// own.
   bool shared = false;
 
   MeshCoefficients() = default;

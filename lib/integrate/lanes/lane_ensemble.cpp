@@ -313,7 +313,7 @@ class LaneEnsemble::Impl {
     bool ended = false;
     bool fresh = false;         ///< its first slope is not that of this place yet
     double proposed = 0;        ///< length of the next evolution's first step; 0 if not known
-    std::vector<double> stops;  ///< breakpoints on the way, and the end
+    std::vector<double> stops;  ///< breakpoints up to the end, and the end
     std::size_t next_stop = 0;
     std::span<const double> samples;
     const Observer* observer = nullptr;
@@ -347,7 +347,7 @@ class LaneEnsemble::Impl {
     ++fresh_;
   }
 
-  /// Tells the field the step's places, without that of its start if its slopes are there.
+  /// Passes the places of the step to the field, without its start if the slopes there are known.
   void set_places(bool with_start) {
     first_place_ = with_start ? 0 : 1;
     field_.set_places(places_.count - first_place_, at_.get() + first_place_ * w_);
@@ -510,7 +510,7 @@ class LaneEnsemble::Impl {
     steps_.norm.fill(worst);
   }
 
-  /// Of a lane whose step was not accepted, and will not be.
+  /// Ends the evolution of a lane whose step was not accepted and cannot be repeated.
   void give_up(std::size_t lane) {
     Lane& l = lanes_[lane];
     const double s = steps_.s[lane];
@@ -610,11 +610,11 @@ class LaneEnsemble::Impl {
   Numbers relative_, absolute_;  ///< tolerances of each lane
   std::vector<Lane> lanes_;
   std::vector<double> sample_;
-  std::size_t running_ = 0;      ///< lanes under way
+  std::size_t running_ = 0;      ///< lanes in progress
   std::size_t fresh_ = 0;        ///< above 0 if there is a fresh one
   bool have_first_ = false;      ///< slopes at the starts of the steps
-  bool all_at_end_ = false;      ///< all lanes under way are where their last step was to end
-  std::size_t first_place_ = 0;  ///< that the field was told
+  bool all_at_end_ = false;      ///< all lanes in progress are where their last step was to end
+  std::size_t first_place_ = 0;  ///< of those passed to the field
   std::size_t evaluated_ = 0;
   std::size_t in_progress_ = 0;  ///< lanes, summed over evaluations
 };

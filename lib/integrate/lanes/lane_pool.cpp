@@ -29,7 +29,7 @@ std::unique_ptr<Flow> flow_alone(VectorField field, IntegratorOptions options) {
   return make_flow(std::move(field), options);
 }
 
-/// One evolution that waits for a lane, or is under way.
+/// One evolution that waits for a lane, or is in progress.
 struct Request {
   const void* flow = nullptr;  ///< whose system it is
   const VectorField* system = nullptr;
@@ -62,7 +62,7 @@ Work since(const Work& before, Work now) {
   return now;
 }
 
-/// Lanes of one kind, each with a motion of its own.
+/// Lanes of one kind, each with a trajectory of its own.
 class Shared {
  public:
   explicit Shared(std::unique_ptr<LaneEnsemble> lanes)
@@ -99,7 +99,7 @@ class Shared {
 
   [[nodiscard]] std::size_t busy() const { return busy_; }
 
-  /// Goes on until an evolution has ended, with lanes under way.
+  /// Goes on until an evolution has ended, with lanes in progress.
   Request& run() {
     const std::size_t lane = lanes_->run();
     Request& request = *std::exchange(in_progress_[lane], nullptr);
@@ -140,7 +140,7 @@ class Shared {
   std::size_t busy_ = 0;
 };
 
-/// One motion, its tangent vectors over all lanes: vector j is that number j / W of lane j % W.
+/// One trajectory, its tangent vectors over all lanes: vector j is that number j / W of lane j % W.
 class Bundle {
  public:
   Bundle(std::unique_ptr<LaneEnsemble> lanes, std::size_t dimension, std::size_t each)
@@ -234,7 +234,7 @@ class LanePool::Impl {
     if (request.failure) std::rethrow_exception(request.failure);
   }
 
-  /// Carries a state with several tangent vectors.
+  /// Integrates a state with several tangent vectors.
   void integrate_bundle(Request& request, std::span<double> tangents, bool controlled) {
     const std::size_t count = tangents.size() / request.state.size();
     const std::size_t each = (count + width() - 1) / width();
@@ -255,7 +255,7 @@ class LanePool::Impl {
       while (go_on()) {
       }
     } catch (...) {
-      // What others have under way ends with them.
+      // The evolutions of the other fibers end with them.
       fibers.clear();
       ready_.clear();
       parked_.clear();
@@ -311,7 +311,7 @@ class LanePool::Impl {
   }
 
   /// Goes on until one evolution has ended, in the lanes that are fullest.
-  /// @returns false if nothing is under way
+  /// @returns false if no evolution is in progress
   bool advance() {
     std::vector<Request*> failed;
     states_->fill(failed);
@@ -431,8 +431,8 @@ class LanePool::PooledFlow final : public Flow {
     return request;
   }
 
-  /// @returns false if the system does not fit the lanes: of another structure than the others, as where a swept value
-  /// turns something off
+  /// @returns false if the system does not fit the lanes: it has another structure than the others, for example because
+  /// a swept value switches something off
   template <class F>
   bool integrated(const Request& request, const F& integration) {
     try {

@@ -1,8 +1,8 @@
 // Coefficients at the phases of a step's slopes, W operating points side by side: model/phase_coefficients.hpp with
 // lanes for scalars.
 //
-// Sine, cosine and the places in tables are chains of operations that wait for each other. So each is gone through for
-// all slopes before the next one: passes are short enough for a processor to work on those of several slopes at once.
+// Sine, cosine and the places in tables are chains of operations that wait for each other. So each operation runs for
+// all slopes before the next one: a processor then works on several slopes at once.
 #pragma once
 
 #include <algorithm>
@@ -17,11 +17,10 @@
 
 namespace epicyclic::model {
 
-/// Slopes that are gone through together: no pair of the lanes has more.
+/// Slopes that are computed together: no pair of the lanes has more.
 inline constexpr std::size_t slopes_together = 8;
 
-/// What the tables decide of one kind of mesh, for `count` slopes.
-/// @param kind  the mesh in the coefficients
+/// Coefficients from the tables of one kind of mesh, for `count` slopes.
 template <std::size_t N, std::size_t W>
 void interpolate(const MeshParameters<Lanes<W>, N>& mesh, const LaneMeshPlaces<N, W>& places, std::size_t count,
                  const Lanes<W>* s, PhaseCoefficients<Lanes<W>, N>* phase_coefficients,
