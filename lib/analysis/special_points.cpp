@@ -396,7 +396,7 @@ class Event {
   std::size_t inside_ = 0;
   bool outwards_ = false;
   bool crosses_here_ = false;        ///< another branch, among the orbits that Newton's method finds
-  bool parameter_extremum_ = false;  ///< the parameter does
+  bool parameter_extremum_ = false;  ///< the parameter has an extremum here
   BranchOrbit near_;
   std::complex<double> expected_;
   std::vector<double> values_, angles_;  ///< of the family and finer ones; angles without sign
