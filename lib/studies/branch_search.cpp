@@ -39,7 +39,7 @@ FoundMotions search_motions(const BranchSystem& system, const model::DynamicMode
   analysis::SearchOptions search;
   search.largest_period = options.period_max;
   constexpr int periods_that_come_back = 200;
-  search.settle = periods_that_come_back;
+  search.return_periods = periods_that_come_back;
   const analysis::OrbitSearch found = search_orbits(family, value, starts, search);
 
   FoundMotions result{value, starts.size(), 0};

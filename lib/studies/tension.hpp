@@ -1,4 +1,4 @@
-// When a mesh is told to pull [S-pull].
+// When a mesh is told to pull [S-tension].
 #pragma once
 
 #include "core/scalar.hpp"
