@@ -60,6 +60,7 @@ struct Arguments {
   bool no_time = false;            ///< of check: time is not measured
   bool quiet = false;              ///< part of another command: nothing on stdout
   std::vector<std::string> words;  ///< of keys: what the user searches for
+  std::vector<std::filesystem::path> report_folders{};  ///< of report
   PlotArguments plot{};
   InitArguments init{};
   Ranks* ranks = nullptr;
@@ -67,6 +68,7 @@ struct Arguments {
 
 int assert_command(const Arguments& arguments);
 int plot_command(const Arguments& arguments);
+int report_command(const Arguments& arguments);
 int keys_command(const Arguments& arguments);
 int init_command(const Arguments& arguments);
 int gear_command(const Arguments& arguments);

@@ -173,6 +173,13 @@ void add_plot_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("--json", arguments.json, "print the names of the figures as JSON");
 }
 
+void add_report_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("FOLDER", arguments.report_folders, "folders of studies, to be shown on one page")->required();
+  command.add_option("-o,--output", arguments.output,
+                     "file for the page (.html); default: report.html in the first FOLDER");
+  command.add_flag("--json", arguments.json, "print the name of the page as JSON");
+}
+
 void add_reproduce_options(CLI::App& command, Arguments& arguments) {
   command.get_option("INPUT")->description(
       "claims of a publication: a name in validation/, a folder, or a file (JSON)");
@@ -207,6 +214,8 @@ std::vector<Command> all_commands() {
        add_assert_options},
       {"plot", "draw figures of finished studies, several studies in one figure; compute nothing", plot_command,
        Takes::finished, add_plot_options},
+      {"report", "write a page of studies for a browser, with diagrams to zoom and points to click; needs no network",
+       report_command, Takes::finished, add_report_options},
       {"check", "validate an input; state its cost and an estimate of the time; write nothing", check_command,
        Takes::input, add_check_options},
       {"keys", "print the keys of the input with unit, default, bounds and meaning; with WORD only those that have it",

@@ -54,9 +54,9 @@ double statistics_ratio(const AttractorRecord& a, const AttractorRecord& b, cons
   const int frequencies = std::min(a.frequencies, b.frequencies);
   if (frequencies == 0) return 0.0;  // too short to prove anything
   double ratio = 0.0;
-  const auto compare = [&](const Estimate& x, const Estimate& y, int their_waves, double least) {
-    // From half widths of default_confidence to those of the level.
-    const double factor = student(level, their_waves) / student(1.0 - default_confidence, their_waves);
+  const auto compare = [&](const Estimate& x, const Estimate& y, int their_frequencies, double least) {
+    // Factor between half widths of default_confidence and those of the level.
+    const double factor = student(level, their_frequencies) / student(1.0 - default_confidence, their_frequencies);
     const double counts = std::max(factor * std::hypot(x.half_width, y.half_width), least);
     const double difference = std::abs(x.value - y.value);
     if (difference > 0.0) ratio = std::max(ratio, difference / counts);
@@ -188,14 +188,14 @@ AttractorRecord record_of_section(const PoincareSection& section, Regime regime,
     const double periods = static_cast<double>(points) / static_cast<double>(n);
     const double late = recurrence.late_error;
     const double decay = recurrence.error > 0.0 ? std::pow(late / recurrence.error, 2.0 / periods) : 0.0;
-    // What does not seem to settle may creep by as much again for as long as it was looked at.
+    // A record whose error does not decay may change once more by as much as it did over the record.
     r.orbit_error = late / std::max(1.0 - decay, 1.0 / periods) + map_error * largest(r.orbit);
     return r;
   }
   r.exponent = exponent;
-  // Student's t of more waves is hardly narrower, and each is a sum over the record.
-  constexpr int most_waves = 32;
-  r.frequencies = std::clamp(static_cast<int>(points / 16), default_frequencies, most_waves);
+  // More frequencies hardly narrow Student's t. Each one costs a sum over the record.
+  constexpr int most_frequencies = 32;
+  r.frequencies = std::clamp(static_cast<int>(points / 16), default_frequencies, most_frequencies);
   r.frequencies = std::min(r.frequencies, static_cast<int>((points - 1) / 2));
   if (r.frequencies == 0) return r;
   std::vector<double> series(points);
@@ -221,34 +221,34 @@ Attractors label_attractors(std::span<const AttractorRecord> records, const Attr
   }
   merge(groups, options);
 
-  // Each record once more, to the nearest: the first ones were asked when there were few to choose from.
+  // Compare each record once more with all groups: the first records had few groups to choose from.
   std::vector<std::vector<std::size_t>> members(groups.size());
   for (const Group& group : groups)
     for (const std::size_t k : group.members()) {
       const auto [g, ratio] = nearest(groups, records[k], options);
       members[ratio <= 1.0 ? g : static_cast<std::size_t>(&group - groups.data())].push_back(k);
     }
-  Attractors told;
-  told.number.assign(records.size(), 0);
+  Attractors result;
+  result.number.assign(records.size(), 0);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (members[g].empty()) continue;
     std::sort(members[g].begin(), members[g].end());
-    told.all.push_back({groups[g].record(), std::move(members[g]), 0, 0});
+    result.all.push_back({groups[g].record(), std::move(members[g]), 0, 0});
   }
-  std::sort(told.all.begin(), told.all.end(),
+  std::sort(result.all.begin(), result.all.end(),
             [](const Attractor& a, const Attractor& b) { return a.members.front() < b.members.front(); });
-  for (std::size_t a = 0; a < told.all.size(); ++a) {
-    Attractor& attractor = told.all[a];
-    for (const std::size_t k : attractor.members) told.number[k] = a + 1;
+  for (std::size_t a = 0; a < result.all.size(); ++a) {
+    Attractor& attractor = result.all[a];
+    for (const std::size_t k : attractor.members) result.number[k] = a + 1;
     for (std::size_t b = 0; b < a && attractor.image_of == 0; ++b)
       for (std::size_t s = 0; s < symmetries.size() && attractor.image_of == 0; ++s)
-        if (told.all[b].record.regime == Regime::periodic && attractor.record.regime == Regime::periodic &&
-            orbit_ratio(image(told.all[b].record, symmetries[s]), attractor.record) <= 1.0) {
+        if (result.all[b].record.regime == Regime::periodic && attractor.record.regime == Regime::periodic &&
+            orbit_ratio(image(result.all[b].record, symmetries[s]), attractor.record) <= 1.0) {
           attractor.image_of = b + 1;
           attractor.image_by = s;
         }
   }
-  return told;
+  return result;
 }
 
 }  // namespace epicyclic::analysis

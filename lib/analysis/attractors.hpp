@@ -1,25 +1,27 @@
-// Which attractor a motion ended on: records of motions that are told apart, and counted.
+// Which attractor a trajectory reached: records are compared, grouped by attractor and counted.
 //
-// All records are of one system, strobed at the same phase of its forcing. What is compared does not depend on where
-// along its orbit a motion was when the record began.
+// All records are of one system, strobed at the same phase of its forcing. The comparison does not depend on the point
+// of the orbit at which a record begins.
 //
 // - Periodic: the n points y_0 ... y_n-1 of the orbit in the section. Two are one attractor if they have one n and
 //
 //     min_r max_k max_j | y'_{k+r,j} - y_k,j | <= 10 (e + e')                                             [A-same]
 //
-//   with e how far the points may be from the orbit: of one found by Newton's method e = | (M - I)^-1 | rho, rho the
-//   residual, or what the integrator leaves of one if that is more; of one told by recurrence alone, what is left to
-//   settle, e = l / (1 - (l / r)^(2n/K)), r and l the recurrence errors over the K points and over their second half.
+//   e bounds the distance of the points from the orbit. For an orbit found by Newton's method, e = | (M - I)^-1 | rho,
+//   with rho the residual, or the integrator's error if that is larger. For an orbit known by recurrence alone,
+//   e = l / (1 - (l / r)^(2n/K)) is the remaining transient. r and l are the recurrence errors over the K points and
+//   over their second half.
 // - Quasiperiodic and chaotic: mean and standard deviation of each component over the section, and the largest
 //   exponent. Two of one regime are one attractor unless one of these differs by more than Student's t at `level`
 //   (divided by their number) times the errors of both, and by more than `least` of the standard deviation, of the
-//   exponent, or `tolerance`. A record is compared with the mean of the records that are on an attractor already.
-//   The errors are those of [A-mean], from the section's K/16 slowest waves, 4 to 32.
-// - Undecided motions are on none.
+//   exponent, or `tolerance`. A record is compared with the mean of the records that are on an attractor already. The
+//   errors are those of [A-mean], from the K/16 lowest frequencies of the section, 4 to 32.
+// - Undecided records belong to no attractor.
 //
-// Limits: a difference that the records do not prove is none, so that attractors as alike as two short records of one
-// are left together; longer records part them. A torus whose slowest wave is longer than the record may be counted more
-// than once. Regimes are taken as told: a motion of a torus that is taken for chaos is on an attractor of its own.
+// Limits: a difference counts only if the records prove it. Two attractors that differ less than two short records of
+// one attractor are counted as one; longer records separate them. A torus whose longest period exceeds the record may
+// be counted more than once. Regimes are taken as given: a torus that was classified as chaotic is an attractor of its
+// own.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +37,7 @@
 
 namespace epicyclic::analysis {
 
-/// What is kept of a motion to tell its attractor.
+/// What is kept of a trajectory to identify its attractor.
 struct AttractorRecord {
   Regime regime = Regime::undecided;
   std::size_t dimension = 0;
@@ -50,13 +52,13 @@ struct AttractorRecord {
 };
 
 /// Of an orbit of period n.
-/// @param flow       carries its state on to the other points
+/// @param flow       integrates from its state to the other points
 /// @param map_error  what the flow leaves of an orbit, in parts of its largest component [-]
-/// @returns a record of an undecided motion if it could not be carried
+/// @returns an undecided record if the integration failed
 [[nodiscard]] AttractorRecord record_of_orbit(integrate::Flow& flow, const PeriodicOrbit& orbit, int n,
                                               double map_error);
 
-/// Of a section whose regime was told.
+/// Of a section with a known regime.
 /// @param recurrence  of the section; read if periodic
 /// @param exponent    largest; read if not periodic
 /// @param map_error   what the flow leaves of an orbit, in parts of its largest component [-]; read if periodic
@@ -65,7 +67,7 @@ struct AttractorRecord {
                                                 double map_error);
 
 struct AttractorOptions {
-  double level = 1e-6;      ///< chance that two records of one attractor are told apart [-]
+  double level = 1e-6;      ///< probability that two records of one attractor are counted as two [-]
   double least = 0.1;       ///< of a standard deviation or an exponent: a smaller difference is none [-]
   double tolerance = 1e-3;  ///< a smaller difference of means or deviations is none, in the units of the state
 
@@ -88,7 +90,7 @@ struct Attractors {
 /// A symmetry of the system: maps solutions to solutions, strobed at the same phase.
 using Symmetry = std::function<std::vector<double>(std::span<const double> state)>;
 
-/// @param symmetries  images are told of periodic attractors only
+/// @param symmetries  images are searched among periodic attractors only
 /// @throws InputError for options out of range
 [[nodiscard]] Attractors label_attractors(std::span<const AttractorRecord> records,
                                           const AttractorOptions& options = {},

@@ -91,7 +91,7 @@ TreeStep BifurcationDiagram::next_orbit() {
         see(std::move(point), step);
         continue;
       }
-      // Behind it the same orbits come again, begun at another period or turned.
+      // Behind it the same orbits come again, begun at another period or rotated by the symmetry.
       step.limit = {BranchEnd::none, true, known_place(point), {}};
       step.orbit = std::move(point.orbit);
       break;
@@ -117,9 +117,10 @@ void BifurcationDiagram::see(SpecialPoint point, TreeStep& step) const {
 
 std::vector<BranchStart> BifurcationDiagram::leaving(const SpecialPoint& point, std::size_t number) const {
   std::vector<BranchStart> starts;
-  const bool flip = point.kind == SpecialKind::flip && 2 * family_.period <= options_.largest_period;
+  const bool period_doubling =
+      point.kind == SpecialKind::period_doubling && 2 * family_.period <= options_.largest_period;
   const bool branch_point = point.kind == SpecialKind::branch_point && options_.branch_points;
-  if (!flip && !branch_point) return starts;
+  if (!period_doubling && !branch_point) return starts;
   const ContinuationOptions range = range_of(current_);
   for (BranchSwitch& d : branch_switches(family_, point, options_.switching)) {
     if (d.orbit.at.value < range.from || d.orbit.at.value > range.to) continue;
@@ -137,28 +138,29 @@ void BifurcationDiagram::apply(TreeStep step) {
     if (step.kind == TreeStep::Kind::skipped) return;
     current_ = std::move(next);
     family_ = family_of(current_);
-    ways_.clear();
+    parts_.clear();
     same_as_.clear();
-    begin_way(current_.orbit);
+    begin_part(current_.orbit);
     return;
   }
-  Way& way = ways_.back();
-  way.after.insert(way.after.end(), step.special.size(), way.orbits.size() - 1);
-  std::move(step.special.begin(), step.special.end(), std::back_inserter(way.special));
+  BranchPart& part = parts_.back();
+  part.after.insert(part.after.end(), step.special.size(), part.orbits.size() - 1);
+  std::move(step.special.begin(), step.special.end(), std::back_inserter(part.special));
   std::move(step.same_as.begin(), step.same_as.end(), std::back_inserter(same_as_));
   // Before starts of others, which may be on what leaves here.
   const auto others = std::find_if(starts_.begin(), starts_.end(), [](const BranchStart& s) { return !s.from; });
-  // Of no elements libstdc++'s deque moves those before the place onto themselves, which empties their vectors.
+  // With an empty range, libstdc++'s deque moves the elements before the place onto themselves, which empties their
+  // vectors.
   if (!step.branch_switches.empty())
     starts_.insert(others, std::make_move_iterator(step.branch_switches.begin()),
                    std::make_move_iterator(step.branch_switches.end()));
-  if (step.orbit) way.orbits.push_back(*std::move(step.orbit));
+  if (step.orbit) part.orbits.push_back(*std::move(step.orbit));
   trace_->restore(std::move(step.trace));
-  if (step.limit) end_way(*step.limit);
+  if (step.limit) end_part(*step.limit);
 }
 
-void BifurcationDiagram::begin_way(const BranchOrbit& from) {
-  ways_.push_back(Way{{from}, {}, {}, {}});
+void BifurcationDiagram::begin_part(const BranchOrbit& from) {
+  parts_.push_back(BranchPart{{from}, {}, {}, {}});
   trace_.emplace(family_, range_of(current_), from);
 }
 
@@ -169,25 +171,25 @@ ContinuationOptions BifurcationDiagram::range_of(const BranchStart& start) const
   return range;
 }
 
-void BifurcationDiagram::end_way(const BranchLimit& limit) {
-  ways_.back().limit = limit;
+void BifurcationDiagram::end_part(const BranchLimit& limit) {
+  parts_.back().limit = limit;
   trace_.reset();
   // A closed branch has been seen whole, one that left a special point begins there.
-  if (ways_.size() == 1 && limit.end != BranchEnd::closed && !current_.from) {
-    begin_way(reversed(current_.orbit));
+  if (parts_.size() == 1 && limit.end != BranchEnd::closed && !current_.from) {
+    begin_part(reversed(current_.orbit));
   } else {
     finish_branch();
   }
 }
 
-Branch BifurcationDiagram::joined(std::vector<Way> ways) const {
+Branch BifurcationDiagram::joined(std::vector<BranchPart> parts) const {
   Branch branch{family_, {}, {}, {}, same_as_, {}, {}};
-  Way& forward = ways.front();
+  BranchPart& forward = parts.front();
   branch.last = forward.limit;
   branch.first = forward.limit.end == BranchEnd::closed ? forward.limit : BranchLimit{};
   std::size_t before = 0;
-  if (ways.size() == 2) {
-    const Way& backward = ways.back();
+  if (parts.size() == 2) {
+    const BranchPart& backward = parts.back();
     branch.first = backward.limit;
     before = backward.orbits.size() - 1;
     for (std::size_t k = before; k > 0; --k) branch.orbits.push_back(reversed(backward.orbits[k]));
@@ -201,8 +203,8 @@ Branch BifurcationDiagram::joined(std::vector<Way> ways) const {
     branch.special.push_back(std::move(forward.special[k]));
     branch.after.push_back(forward.after[k] + before);
   }
-  if (ways.size() == 2) {
-    Way& backward = ways.back();
+  if (parts.size() == 2) {
+    BranchPart& backward = parts.back();
     for (std::size_t k = 0; k < backward.special.size(); ++k) {
       SpecialPoint& point = backward.special[k];
       point.outwards = !point.outwards;
@@ -217,11 +219,11 @@ Branch BifurcationDiagram::joined(std::vector<Way> ways) const {
   return branch;
 }
 
-void BifurcationDiagram::finish_branch() { branches_.push_back(joined(std::move(ways_))); }
+void BifurcationDiagram::finish_branch() { branches_.push_back(joined(std::move(parts_))); }
 
-std::optional<Branch> BifurcationDiagram::under_way() const {
+std::optional<Branch> BifurcationDiagram::unfinished_branch() const {
   if (!trace_) return std::nullopt;
-  return joined(ways_);
+  return joined(parts_);
 }
 
 bool BifurcationDiagram::loses_itself(const SpecialPoint& point) const {
@@ -245,12 +247,12 @@ std::optional<SpecialPlace> BifurcationDiagram::place_behind(const BranchOrbit& 
   const Eigen::MatrixXd states = period_states(family_, last.at);
   const double away = std::abs(beyond - last.at.value);
   std::optional<SpecialPlace> nearest;
-  // Of what is born there, orbits are no further from it than from each other.
+  // Orbits of a branch that begins there are no further from it than from each other.
   double least = 2.0 * distance_to_simpler(family_, last.at);
   for (std::size_t b = 0; b < branches_.size(); ++b)
     for (std::size_t k = 0; k < branches_[b].special.size(); ++k) {
       const SpecialPoint& p = branches_[b].special[k];
-      if (p.kind != SpecialKind::flip && p.kind != SpecialKind::branch_point) continue;
+      if (p.kind != SpecialKind::period_doubling && p.kind != SpecialKind::branch_point) continue;
       if (std::abs(p.value - last.at.value) > 2.0 * away) continue;
       const Eigen::MatrixXd at = period_states(branches_[b].family, p.orbit.at);
       if (at.cols() == 0 || at.cols() > states.cols()) continue;
@@ -266,10 +268,10 @@ std::optional<SpecialPlace> BifurcationDiagram::known_place(const SpecialPoint& 
   const Eigen::MatrixXd states = period_states(family_, point.orbit.at);
   const double difference = options_.same * family_.state_scale;
   const auto is_it = [&](const OrbitFamily& other, const SpecialPoint& p) {
-    if (p.kind != SpecialKind::flip && p.kind != SpecialKind::branch_point) return false;
+    if (p.kind != SpecialKind::period_doubling && p.kind != SpecialKind::branch_point) return false;
     if (std::abs(p.value - point.value) > options_.same_value * family_.value_scale) return false;
     const Eigen::MatrixXd at = period_states(other, p.orbit.at);
-    // Of the period of the other branch, which may be half of ours.
+    // The states of one period of the other branch, which may be half of this one.
     const Eigen::Index n = at.cols();
     return n > 0 && n <= states.cols() && are_images(at, states.leftCols(n), family_.symmetry, difference);
   };
@@ -282,8 +284,8 @@ std::optional<SpecialPlace> BifurcationDiagram::known_place(const SpecialPoint& 
 bool BifurcationDiagram::ended_at_the_birth_of(const Branch& branch, const BranchStart& start) const {
   if (!start.from || branch.family.period != start.period) return false;
   const SpecialPoint& birth = branches_[start.from->branch].special[start.from->point];
-  // One branch leaves a flip that keeps the symmetry, and no more.
-  if (birth.kind != SpecialKind::flip || birth.symmetry_index != 0) return false;
+  // At a period doubling that keeps the symmetry exactly one branch begins.
+  if (birth.kind != SpecialKind::period_doubling || birth.symmetry_index != 0) return false;
   const auto ends_there = [&](const BranchLimit& limit) {
     return limit.born && limit.place && limit.place->branch == start.from->branch &&
            limit.place->point == start.from->point;

@@ -24,7 +24,7 @@ std::vector<Eigen::VectorXd> directions(const OrbitFamily& family, const Special
   for (const InvariantBlock& b : blocks)
     if (b.symmetry_index == point.symmetry_index) block = &b;
   if (block == nullptr) return {};
-  const double at = point.kind == SpecialKind::flip ? -1.0 : 1.0;
+  const double at = point.kind == SpecialKind::period_doubling ? -1.0 : 1.0;
   std::vector<Eigen::VectorXd> all;
   if (point.nullity == 2 && block->real) {
     const MatrixProduct b = real_block_of(*block, m);
@@ -37,20 +37,22 @@ std::vector<Eigen::VectorXd> directions(const OrbitFamily& family, const Special
     return all;
   }
   const Eigen::VectorXcd v = block->basis * right_null_vector(block_of(*block, m).cyclic(at)).head(block->basis.cols());
-  // Of a real block v is real but for a factor of modulus 1.
+  // For a real block, v is real up to a factor of modulus 1.
   Eigen::Index largest = 0;
   v.cwiseAbs().maxCoeff(&largest);
-  const std::complex<double> turn = std::conj(v(largest)) / std::abs(v(largest));
-  if (block->real) return {(turn * v).real()};
-  for (int k = 0; k < angles; ++k) all.emplace_back((std::polar(1.0, std::numbers::pi * k / angles) * turn * v).real());
+  const std::complex<double> phase_factor = std::conj(v(largest)) / std::abs(v(largest));
+  if (block->real) return {(phase_factor * v).real()};
+  for (int k = 0; k < angles; ++k)
+    all.emplace_back((std::polar(1.0, std::numbers::pi * k / angles) * phase_factor * v).real());
   return all;
 }
 
-/// The way from z to what its states become with y_0 + v, v small.
-std::optional<CurvePoint> carried_direction(const OrbitFamily& family, const CurvePoint& z, const Eigen::VectorXd& v) {
+/// The derivative of the states at all shooting intervals with respect to y_0, along v; v is small.
+std::optional<CurvePoint> direction_at_intervals(const OrbitFamily& family, const CurvePoint& z,
+                                                 const Eigen::VectorXd& v) {
   constexpr double little = 1e-5;
-  const auto ahead = cut_into_pieces(family, z.states.col(0) + little * v, z.value);
-  const auto behind = cut_into_pieces(family, z.states.col(0) - little * v, z.value);
+  const auto ahead = split_into_intervals(family, z.states.col(0) + little * v, z.value);
+  const auto behind = split_into_intervals(family, z.states.col(0) - little * v, z.value);
   if (!ahead || !behind) return std::nullopt;
   return (0.5 / little) * (*ahead - *behind);
 }
@@ -58,13 +60,13 @@ std::optional<CurvePoint> carried_direction(const OrbitFamily& family, const Cur
 /// The unit direction from z that an orbit displaced by v takes, without its part along the branch of the point.
 std::optional<CurvePoint> direction_across(const OrbitFamily& other, const SpecialPoint& point, const CurvePoint& z,
                                            const Eigen::VectorXd& v) {
-  std::optional<CurvePoint> away = carried_direction(other, z, v);
+  std::optional<CurvePoint> away = direction_at_intervals(other, z, v);
   if (!away) return std::nullopt;
-  if (point.kind != SpecialKind::flip) {
+  if (point.kind != SpecialKind::period_doubling) {
     const BranchOrbit& orbit = point.orbit;
     const std::optional<CurvePoint> along =
-        cut_into_pieces(other, orbit.at.states.col(0) + 1e-5 * orbit.direction.states.col(0),
-                        point.value + 1e-5 * orbit.direction.value);
+        split_into_intervals(other, orbit.at.states.col(0) + 1e-5 * orbit.direction.states.col(0),
+                             point.value + 1e-5 * orbit.direction.value);
     if (!along) return std::nullopt;
     const CurvePoint t = 1e5 * (*along - z);
     *away = *away - (inner_product(other, *away, t) / inner_product(other, t, t)) * t;
@@ -77,7 +79,7 @@ Correction orbit_beside(const OrbitFamily& other, const CurvePoint& base, const 
                         const SwitchOptions& options, bool in_plane) {
   const auto at = [&](double distance) { return correct(other, base + distance * normal, normal); };
   Correction c = at(options.distance);
-  // A fold nearer than that would be passed unseen: there the parameter turns.
+  // A step could pass a fold that is nearer than that: at the fold the parameter reverses.
   double distance = options.distance;
   constexpr int nearer_ones = 4;
   for (int k = 0; k < nearer_ones && c.found; ++k) {
@@ -107,9 +109,9 @@ void SwitchOptions::validate() const {
 
 Eigen::MatrixXd period_states(const OrbitFamily& family, const CurvePoint& at) {
   Eigen::MatrixXd y(at.states.rows(), family.period);
-  // As many pieces as periods begin where these do.
+  // One shooting interval per period: the intervals begin where the periods do.
   y.col(0) = at.states.col(0);
-  if (!carry_to_intervals(*family.flows(at.value), family.period, y).reached())
+  if (!integrate_to_intervals(*family.flows(at.value), family.period, y).reached())
     return Eigen::MatrixXd(at.states.rows(), 0);
   return without_shift(family, y);
 }
@@ -132,15 +134,15 @@ double image_distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const 
   double least = std::numeric_limits<double>::infinity();
   if (a.cols() != b.cols() || a.cols() == 0) return least;
   const Eigen::Index n = a.cols();
-  Eigen::MatrixXd turned = b;
-  for (int turn = 0; turn < symmetry.order; ++turn) {
+  Eigen::MatrixXd rotated = b;
+  for (int rotation = 0; rotation < symmetry.order; ++rotation) {
     for (Eigen::Index shift = 0; shift < n; ++shift) {
       double most = 0.0;
       for (Eigen::Index k = 0; k < n; ++k)
-        most = std::max(most, (a.col(k) - turned.col((k + shift) % n)).lpNorm<Eigen::Infinity>());
+        most = std::max(most, (a.col(k) - rotated.col((k + shift) % n)).lpNorm<Eigen::Infinity>());
       least = std::min(least, most);
     }
-    if (symmetry.map.size() != 0) turned = product(symmetry.map, turned);
+    if (symmetry.map.size() != 0) rotated = product(symmetry.map, rotated);
   }
   return least;
 }
@@ -161,16 +163,16 @@ int least_period(const Eigen::MatrixXd& states, double difference) {
 std::vector<BranchSwitch> branch_switches(const OrbitFamily& family, const SpecialPoint& point,
                                           const SwitchOptions& options) {
   options.validate();
-  const bool flip = point.kind == SpecialKind::flip;
-  if (!flip && point.kind != SpecialKind::branch_point) return {};
+  const bool period_doubling = point.kind == SpecialKind::period_doubling;
+  if (!period_doubling && point.kind != SpecialKind::branch_point) return {};
   OrbitFamily other = family;
-  if (flip) other.period *= 2;
-  if (flip) other.shooting_intervals *= 2;
+  if (period_doubling) other.period *= 2;
+  if (period_doubling) other.shooting_intervals *= 2;
   if (point.symmetry_index != 0) other.keeps_symmetry = false;
   std::vector<BranchSwitch> found;
   std::vector<Eigen::MatrixXd> seen;
   for (const Eigen::VectorXd& v : directions(family, point, options.angles)) {
-    const std::optional<CurvePoint> base = cut_into_pieces(other, point.orbit.at.states.col(0), point.value);
+    const std::optional<CurvePoint> base = split_into_intervals(other, point.orbit.at.states.col(0), point.value);
     if (!base) return found;
     const std::optional<CurvePoint> unit = direction_across(other, point, *base, v);
     if (!unit) continue;
@@ -183,14 +185,14 @@ std::vector<BranchSwitch> branch_switches(const OrbitFamily& family, const Speci
       bool known = states.cols() == 0;
       for (const Eigen::MatrixXd& s : seen) known = known || are_images(s, states, family.symmetry, difference);
       // Newton's method may lead back to the branch that it came from.
-      if (flip) {
+      if (period_doubling) {
         const Eigen::Index n = family.period;
         known = known || (states.leftCols(n) - states.rightCols(n)).lpNorm<Eigen::Infinity>() <= difference;
       }
       if (known) continue;
       seen.push_back(states);
       MatrixProduct monodromy = point.orbit.monodromy;
-      if (flip)
+      if (period_doubling)
         for (const Eigen::MatrixXd& again : point.orbit.monodromy.factors) monodromy.factors.push_back(again);
       found.push_back({other, {*base, normal, std::move(monodromy), 0.0}, std::move(c.orbit)});
     }

@@ -1,15 +1,16 @@
-// Onto the other branch: at flips to orbits of twice the period, at branch points to those that cross.
+// Switching to another branch: at period doublings to orbits of twice the period, at branch points to the
+// orbits of the branch that crosses.
 //
 // With v the eigenvector of the monodromy at the multiplier that is critical, the other branch leaves the point z_0 as
 //
 //   z_0 + e (v, 0) + O(e^2)                                                                            [A-switch]
 //
-// at a flip v after n periods is -v, so that e and -e are one orbit of 2 n periods begun at another of them; at a
-// branch point the part of (v, 0) along the known branch is taken out, and e and -e may be two. Of a block that stands
-// for two [A-blocks] v turns in a plane: which of its directions lead to orbits the symmetry decides, so several are
-// tried. Source: Seydel, 3rd ed., ch. 5.
+// At a period doubling v becomes -v after n periods: e and -e are one orbit of 2 n periods, begun at another of them.
+// At a branch point the part of (v, 0) along the known branch is removed, and e and -e may be two orbits. In a block
+// that stands for two [A-blocks] v spans a plane. The symmetry decides which of its directions lead to orbits, so
+// several are tried. Source: Seydel, 3rd ed., ch. 5.
 //
-// Limits: orbits that leave in more than these directions are not looked for, tori and their resonances neither.
+// Limits: orbits in other directions, tori and their resonances are not searched for.
 #pragma once
 
 #include <vector>
@@ -30,7 +31,7 @@ struct SwitchOptions {
 /// One orbit on a branch that leaves a special point, going away from it.
 struct BranchSwitch {
   OrbitFamily family;  ///< of that branch: of twice the period, or without the symmetry that is broken
-  BranchOrbit origin;  ///< the point itself as an orbit of that family, its direction the way that is left
+  BranchOrbit origin;  ///< the point itself as an orbit of that family, with the direction of the new branch
   BranchOrbit orbit;
 };
 
@@ -41,7 +42,7 @@ struct BranchSwitch {
                                                         const SwitchOptions& options = {});
 
 /// States of an orbit at the beginnings of its n periods, one a column, without shifts along neutral directions.
-/// @returns no columns if it could not be carried
+/// @returns no columns if the integration failed
 [[nodiscard]] Eigen::MatrixXd period_states(const OrbitFamily& family, const CurvePoint& at);
 
 /// The fewest periods after which states repeat.
@@ -51,13 +52,13 @@ struct BranchSwitch {
 
 /// How far an orbit is from one of a shorter period, or from one that has the symmetry which the family does not keep:
 /// the least over these of the largest difference of a component.
-/// @returns infinity where there is nothing simpler, and for an orbit that could not be carried
+/// @returns infinity where there is nothing simpler, and for an orbit whose integration failed
 [[nodiscard]] double distance_to_simpler(const OrbitFamily& family, const CurvePoint& at);
 
-/// How far one orbit is from the other, begun at another of its periods or turned by the symmetry: the least over these
-/// of the largest difference of a component.
+/// Distance of one orbit from the other, begun at another of its periods or rotated by the symmetry: the least over
+/// these of the largest difference of a component.
 /// @param a, b      of period_states()
-/// @param symmetry  none: as they are
+/// @param symmetry  empty: without rotation
 /// @returns infinity for different numbers of columns
 [[nodiscard]] double image_distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const CyclicSymmetry& symmetry);
 

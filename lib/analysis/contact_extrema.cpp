@@ -13,17 +13,17 @@ namespace epicyclic::analysis {
 
 namespace {
 
-constexpr int looks_per_period = 128;
+constexpr int samples_per_period = 128;
 
 std::span<double> span_of(Eigen::VectorXd& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
 
-/// One surface between two looks.
-struct Look {
+/// One surface at one sample.
+struct Sample {
   double s = 0, value = 0, rate = 0;
 };
 
-/// Extremum of the cubic through two looks whose rates differ in sign.
-double cubic_extremum(const Look& a, const Look& b, bool least) {
+/// Extremum of the cubic through two samples whose rates differ in sign.
+double cubic_extremum(const Sample& a, const Sample& b, bool least) {
   const double h = b.s - a.s;
   // v(x) = a + h a' x + c2 x^2 + c3 x^3, x in [0, 1].
   const double c1 = h * a.rate;
@@ -37,7 +37,7 @@ double cubic_extremum(const Look& a, const Look& b, bool least) {
   return best;
 }
 
-/// Sees every pair of neighbouring looks on a stretch.
+/// Passes every pair of neighbouring samples on a stretch to a function.
 class Watch {
  public:
   explicit Watch(integrate::Flow& flow)
@@ -47,12 +47,12 @@ class Watch {
   template <class See>
   bool stretch(const Stretch& of, const See& see) {
     const int windows =
-        std::max(1, static_cast<int>(std::ceil(looks_per_period * (of.to - of.from) / flow_.field().period - 1e-9)));
+        std::max(1, static_cast<int>(std::ceil(samples_per_period * (of.to - of.from) / flow_.field().period - 1e-9)));
     std::vector<double> at;
     for (int k = 1; k <= windows; ++k) at.push_back(k == windows ? of.to : of.from + (of.to - of.from) * k / windows);
-    std::vector<Look> before(count_);
+    std::vector<Sample> before(count_);
     take(of.from, of.state.data(), before);
-    std::vector<Look> now(count_);
+    std::vector<Sample> now(count_);
     Eigen::VectorXd y = of.state;
     const auto observe = [&](std::size_t, double s, std::span<const double> state) {
       take(s, state.data(), now);
@@ -62,13 +62,13 @@ class Watch {
     return flow_.evolve(span_of(y), of.from, of.to, at, observe).reached();
   }
 
-  Look sample(std::size_t surface, double s, const double* y) {
+  Sample sample(std::size_t surface, double s, const double* y) {
     flow_.field().surfaces.evaluate(s, y, values_.data(), rates_.data());
     return {s, values_[surface], rates_[surface]};
   }
 
  private:
-  void take(double s, const double* y, std::vector<Look>& to) {
+  void take(double s, const double* y, std::vector<Sample>& to) {
     flow_.field().surfaces.evaluate(s, y, values_.data(), rates_.data());
     for (std::size_t i = 0; i < count_; ++i) to[i] = {s, values_[i], rates_[i]};
   }
@@ -79,7 +79,7 @@ class Watch {
 };
 
 /// Is there a place between where the value is least, or greatest?
-bool turns(const Look& a, const Look& b, bool least) {
+bool has_extremum(const Sample& a, const Sample& b, bool least) {
   return least ? a.rate <= 0.0 && b.rate >= 0.0 : a.rate >= 0.0 && b.rate <= 0.0;
 }
 
@@ -95,11 +95,11 @@ std::optional<ContactExtrema> contact_extrema(const OrbitFamily& family, const C
   if (all.empty()) return std::nullopt;
   Watch watch(*flow);
   for (const Stretch& stretch : all) {
-    const bool reached = watch.stretch(stretch, [&](std::size_t i, const Look& a, const Look& b) {
+    const bool reached = watch.stretch(stretch, [&](std::size_t i, const Sample& a, const Sample& b) {
       e.least[i] = std::min({e.least[i], a.value, b.value});
       e.greatest[i] = std::max({e.greatest[i], a.value, b.value});
-      if (turns(a, b, true)) e.least[i] = std::min(e.least[i], cubic_extremum(a, b, true));
-      if (turns(a, b, false)) e.greatest[i] = std::max(e.greatest[i], cubic_extremum(a, b, false));
+      if (has_extremum(a, b, true)) e.least[i] = std::min(e.least[i], cubic_extremum(a, b, true));
+      if (has_extremum(a, b, false)) e.greatest[i] = std::max(e.greatest[i], cubic_extremum(a, b, false));
     });
     if (!reached) return std::nullopt;
   }
@@ -112,29 +112,30 @@ std::optional<double> contact_extremum(const OrbitFamily& family, const CurvePoi
   const std::vector<Stretch> all = stretches(*flow, orbit.states, family.period);
   if (all.empty()) return std::nullopt;
   Watch watch(*flow);
-  // The looks about the extremum, and the stretch that they are on.
+  // The samples about the extremum, and their stretch.
   double best = least ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
   const Stretch* on = nullptr;
   double low = 0.0;
   double high = 0.0;
   const auto better = [&](double value) { return least ? value < best : value > best; };
-  // Where stretches meet the motion is only as continuous as the orbit is closed: an extremum there may be on neither.
-  std::optional<Look> begun, ended;
-  const auto meet = [&](const Look& end, const Look& begin) {
+  // Between two stretches the trajectory is only as continuous as the orbit is closed: an extremum there may be on
+  // neither.
+  std::optional<Sample> begun, ended;
+  const auto meet = [&](const Sample& end, const Sample& begin) {
     const double value = 0.5 * (end.value + begin.value);
-    if (!turns(end, begin, least) || !better(value)) return;
+    if (!has_extremum(end, begin, least) || !better(value)) return;
     best = value;
     on = nullptr;
   };
   for (const Stretch& stretch : all) {
     bool first = true;
-    const bool reached = watch.stretch(stretch, [&](std::size_t i, const Look& a, const Look& b) {
+    const bool reached = watch.stretch(stretch, [&](std::size_t i, const Sample& a, const Sample& b) {
       if (i != surface) return;
       if (!begun) begun = a;
       if (first && ended) meet(*ended, a);
       first = false;
       ended = b;
-      if (!turns(a, b, least)) return;
+      if (!has_extremum(a, b, least)) return;
       const double value = cubic_extremum(a, b, least);
       if (!better(value)) return;
       best = value;
@@ -150,20 +151,20 @@ std::optional<double> contact_extremum(const OrbitFamily& family, const CurvePoi
   Eigen::VectorXd at_low = on->state;
   flow->forget();
   if (low > on->from && !flow->evolve(span_of(at_low), on->from, low).reached()) return std::nullopt;
-  const auto look_at = [&](double s) {
+  const auto sample_at = [&](double s) {
     Eigen::VectorXd y = at_low;
     flow->forget();
-    if (s > low && !flow->evolve(span_of(y), low, s).reached()) return Look{s, std::nan(""), std::nan("")};
+    if (s > low && !flow->evolve(span_of(y), low, s).reached()) return Sample{s, std::nan(""), std::nan("")};
     return watch.sample(surface, s, y.data());
   };
-  const Look first = look_at(low);
-  const Look last = look_at(high);
-  // Flat at the resolution of the looks' own interpolation: one end is the extremum.
+  const Sample first = sample_at(low);
+  const Sample last = sample_at(high);
+  // The value is flat at the resolution of the interpolation between samples: one end is the extremum.
   if (!(first.rate * last.rate < 0.0))
     return least ? std::min(first.value, last.value) : std::max(first.value, last.value);
   // The value is off by the square of what the place is.
   constexpr double width = 1e-7;
-  return look_at(find_root([&](double s) { return look_at(s).rate; }, low, high, width * (high - low))).value;
+  return sample_at(find_root([&](double s) { return sample_at(s).rate; }, low, high, width * (high - low))).value;
 }
 
 }  // namespace epicyclic::analysis

@@ -53,18 +53,18 @@ double multiplier_change(const std::vector<InvariantBlock>& blocks, const Matrix
 }
 
 StepVerdict judge_step(const ContinuationOptions& options, double step, double angle, double distance, double moved) {
-  // What steps aim at may be exceeded by as much again.
-  const double turned = angle / (2.0 * options.max_tangent_angle);
+  // A step may exceed the angle of the options by a factor of two.
+  const double rotated = angle / (2.0 * options.max_tangent_angle);
   const double missed = distance / (options.predictor_tolerance * step);
   const double jumped = moved / options.multiplier_change;
   StepVerdict verdict;
-  verdict.good = std::max({turned, missed, jumped}) <= 1.0;
-  verdict.reason = turned > 1.0   ? "the tangent of the branch rotates too far"
+  verdict.good = std::max({rotated, missed, jumped}) <= 1.0;
+  verdict.reason = rotated > 1.0  ? "the tangent of the branch rotates too far"
                    : missed > 1.0 ? "the predictor is too far from the orbit"
                                   : "a multiplier jumps";
   // Half of each is where the next step goes to; a guess of second order misses by the third power.
   verdict.grow =
-      std::min({0.5 / std::max(turned, 1e-3), std::cbrt(0.3 / std::max(missed, 1e-3)), 0.7 / std::max(jumped, 1e-3)});
+      std::min({0.5 / std::max(rotated, 1e-3), std::cbrt(0.3 / std::max(missed, 1e-3)), 0.7 / std::max(jumped, 1e-3)});
   return verdict;
 }
 
@@ -98,29 +98,30 @@ bool Continuation::accept(const Correction& c, double step) {
 
 bool Continuation::back_at_the_start(const BranchOrbit& next, double step) const {
   if (!state_.left_start) return false;
-  // Between now and next, going the same way.
+  // Between this orbit and the next, with the same direction.
   const CurvePoint to_start = start_.at - state_.now.at;
   const double ahead = inner_product(family_, to_start, state_.now.direction);
   if (ahead < 0.0 || ahead > step || inner_product(family_, next.direction, start_.direction) < 0.0) return false;
   if (length(family_, to_start) > 2.0 * step) return false;
   const Correction c = correct(family_, guess(ahead), state_.now.direction);
-  // Of one branch to the corrector's own accuracy, in parts of a step.
+  // Equal points of one branch: to the corrector's own accuracy, in parts of a step.
   constexpr double same = 1e-3;
   return c.found && length(family_, c.orbit.at - start_.at) < same * step;
 }
 
-/// The first of the values that orbits are wanted at, the ends of the range among them, on the way to another.
+/// The first requested value between the current value and another one. The ends of the range are among the requested
+/// values.
 std::optional<double> Continuation::wanted_before(double value) const {
   std::optional<double> first;
-  const auto ask = [&](double wanted) {
-    const bool on_the_way = value > state_.now.at.value ? wanted > state_.now.at.value && wanted <= value
-                                                        : wanted < state_.now.at.value && wanted >= value;
-    if (on_the_way && (!first || std::abs(wanted - state_.now.at.value) < std::abs(*first - state_.now.at.value)))
+  const auto request = [&](double wanted) {
+    const bool between = value > state_.now.at.value ? wanted > state_.now.at.value && wanted <= value
+                                                     : wanted < state_.now.at.value && wanted >= value;
+    if (between && (!first || std::abs(wanted - state_.now.at.value) < std::abs(*first - state_.now.at.value)))
       first = wanted;
   };
-  ask(options_.from);
-  ask(options_.to);
-  for (const double v : options_.values) ask(v);
+  request(options_.from);
+  request(options_.to);
+  for (const double v : options_.values) request(v);
   return first;
 }
 
@@ -149,7 +150,7 @@ bool Continuation::advance() {
     state_.end = BranchEnd::many;
     return false;
   }
-  // From an end of the range outwards there is nothing.
+  // The branch ends at an end of the range.
   const double outwards = state_.now.direction.value;
   if ((state_.now.at.value == options_.to && outwards > 0.0) ||
       (state_.now.at.value == options_.from && outwards < 0.0)) {
@@ -163,7 +164,7 @@ bool Continuation::advance() {
     } else {
       const Correction c = correct(family_, ahead, state_.now.direction);
       state_.evaluations += c.evaluations;
-      // What the guess did not reach may have been passed all the same: a shorter step will tell.
+      // The step may have passed a value that the guess did not reach: a shorter step decides.
       if (accept(c, state_.step) && !wanted_before(c.orbit.at.value)) {
         if (back_at_the_start(c.orbit, state_.step)) {
           before_ = std::exchange(state_.now, start_);

@@ -1,15 +1,15 @@
 // A branch of periodic orbits, followed by its arc length.
 //
-// From an orbit z with direction t the next one lies in the plane <t, z* - z> = h that stands on t [A-plane], near the
-// guess of second order z + h t + h^2 / 2 dt/dh, dt/dh from the directions of the last two orbits. The step h grows and
-// shrinks so that the directions of neighbours differ by the angle asked for, that no multiplier near the unit circle
-// moves further than it may, and that the guess stays close to what is found. A step is taken back and halved when one
-// of these is exceeded or nothing is found: so branches that come close are not exchanged, and the special points
-// between two orbits can be told from their multipliers [special_points.hpp].
+// From an orbit z with direction t the next one lies in the plane <t, z* - z> = h, normal to t [A-plane]. It is near
+// the guess of second order z + h t + h^2 / 2 dt/dh, with dt/dh from the directions of the last two orbits. The step h
+// keeps three limits: the angle between the directions of neighbours, the displacement of each multiplier near the unit
+// circle, and the distance of the guess from the orbit found. A step is rejected and halved if one of these limits is
+// exceeded or no orbit is found. So the continuation does not jump to a neighbouring branch, and multipliers identify
+// the special points between two orbits [special_points.hpp].
 //
-// Limits: an isolated branch is followed from its start only. Where an orbit grazes a kink, directions turn like the
-// root of the distance beyond it: steps shorten there by themselves, to no less than the least step; multipliers jump
-// in their slope, not in value.
+// Limits: an isolated branch is followed from its start only. Where an orbit grazes a kink, the tangent angle changes
+// like the root of the distance beyond it. Steps shorten there by themselves, to no less than the least step.
+// Multipliers are continuous there; their slopes jump.
 #pragma once
 
 #include <complex>
@@ -42,7 +42,7 @@ enum class BranchEnd {
   none,      ///< it goes on
   range,     ///< an end of the range, which the last orbit is at
   closed,    ///< the branch has come back to its first orbit, which stands last again
-  many,      ///< as many orbits as asked for
+  many,      ///< the requested number of orbits
   min_step,  ///< no orbit within the least step
 };
 
@@ -58,10 +58,10 @@ struct ContinuationState {
   int evaluations = 0;    ///< of the shooting equations with their derivatives
 };
 
-/// The branch from one orbit one way.
+/// The branch from one orbit, in one direction.
 class Continuation {
  public:
-  /// @param start  an orbit of the family, its direction the way to go
+  /// @param start  an orbit of the family, whose direction is the direction of the continuation
   /// @throws InputError for options out of range, or a start outside the range
   Continuation(OrbitFamily family, const ContinuationOptions& options, BranchOrbit start);
 

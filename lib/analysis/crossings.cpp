@@ -20,10 +20,10 @@ std::optional<Crossing> crossing_between(const InvariantBlock& block, const Sign
   const std::size_t crossed = std::max(a.outside, b.outside) - std::min(a.outside, b.outside);
   const bool plus = a.plus != b.plus;
   const bool minus = a.minus != b.minus;
-  const bool turns = a.falling != b.falling;
-  if (crossed == 0 && !plus && !minus && !turns) return std::nullopt;
+  const bool direction_changes = a.falling != b.falling;
+  if (crossed == 0 && !plus && !minus && !direction_changes) return std::nullopt;
   if (plus && !minus && crossed == 1) return Crossing::plus;
-  if (turns) return Crossing::unresolved;
+  if (direction_changes) return Crossing::unresolved;
   if (minus && !plus && crossed == 1) return Crossing::minus;
   if (!plus && !minus && crossed == (block.real ? 2U : 1U)) return Crossing::pair;
   return Crossing::unresolved;

@@ -1,8 +1,8 @@
-// What of the multipliers in an invariant block has changed between two orbits, and which one event that is.
+// The change of the multipliers of an invariant block between two orbits, and the event that it stands for.
 //
 // Signs of det(B - I) and det(B + I) are parities of the real multipliers beyond +1 and -1 [A-special]; with the number
-// beyond the unit circle they tell one event of each kind from another, in the company of many. What goes one way
-// while another comes the other way is seen by following each multiplier from one orbit to the next.
+// beyond the unit circle they distinguish the events of different kinds, also among many multipliers. Two multipliers
+// that cross in opposite directions are seen by following each multiplier from one orbit to the next.
 #pragma once
 
 #include <complex>
@@ -25,17 +25,18 @@ struct Signs {
 };
 
 /// All but `falling`.
-/// @param values  multipliers of the block, or those of them that are looked at
+/// @param values  all multipliers of the block, or some of them
 [[nodiscard]] Signs signs_of(const InvariantBlock& block, const Multipliers& values);
 
 /// Which multipliers reach the unit circle.
 enum class Crossing { plus, minus, pair, unresolved };
 
-/// @returns nothing if none does; unresolved if it cannot be one alone; `plus` with or without a turn of the parameter
+/// @returns nothing if none does; unresolved if it cannot be one alone; `plus` with or without an extremum of the
+/// parameter
 [[nodiscard]] std::optional<Crossing> crossing_between(const InvariantBlock& block, const Signs& a, const Signs& b);
 
-/// Multipliers that cross the unit circle each way between two orbits, each one of `a` taken for the one of `b` that it
-/// is nearest to, the nearest first.
+/// Multipliers that cross the unit circle in each direction between two orbits. Each one of `a` is paired with the
+/// nearest one of `b`, the nearest pair first.
 struct Passages {
   std::size_t outwards = 0;
   std::size_t inwards = 0;
@@ -45,8 +46,7 @@ struct Passages {
 /// The multiplier nearest to a place.
 [[nodiscard]] std::complex<double> nearest(const Multipliers& values, std::complex<double> to);
 
-/// Of another sign on each side of the crossing, whatever else happens to the multipliers; smooth there.
-/// @param inside  the lesser number beyond the unit circle of both sides
+/// Has opposite signs on the two sides of the crossing, whatever else happens to the multipliers; smooth there.
 [[nodiscard]] double sign_function(const InvariantBlock& block, Crossing crossing, const Multipliers& values,
                                    std::size_t inside);
 

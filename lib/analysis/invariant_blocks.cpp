@@ -12,7 +12,7 @@ namespace epicyclic::analysis {
 
 namespace {
 
-// Of maps that are made of sines, cosines and sums of a state's components.
+// Rounding of maps that are made of sines, cosines and sums of a state's components.
 constexpr double block_rounding = 1e-12;
 
 /// Orthonormal basis of the range of a projector, whose trace is its rank.
@@ -39,7 +39,7 @@ Eigen::MatrixXcd span_of(const Eigen::MatrixXcd& columns) {
 
 /// A block without what it has of the neutral directions [A-neutral].
 InvariantBlock without_neutral(InvariantBlock block, const CyclicSymmetry& symmetry, int order) {
-  // P_j C; of a wave that they have no part in it is rounding.
+  // P_j C; rounding if the neutral directions have no component of this symmetry index.
   Eigen::MatrixXcd part = Eigen::MatrixXcd::Zero(symmetry.neutral.rows(), symmetry.neutral.cols());
   Eigen::MatrixXd moved = symmetry.neutral;
   for (int k = 0; k < order; ++k) {

@@ -1,16 +1,17 @@
-// Invariant subspaces of a period map that commutes with a symmetry: its multipliers, told apart by how they break it.
+// Invariant subspaces of a period map that commutes with a symmetry: its multipliers, sorted by how they break it.
 //
 // A linear map S of the state with S^N = 1 (planets moved on by one, say) that commutes with the flow at each phase
-// commutes with the monodromy M of an orbit that it leaves as it is. The states split into waves,
+// commutes with the monodromy M of an orbit that it leaves as it is. The states split into components of symmetry index
+// j,
 //
 //   P_j = 1/N sum_k e^(-2 pi i j k / N) S^k ,    B_j = V_j^H M V_j ,    V_j an orthonormal basis of the range of P_j ,
 //                                                                                                        [A-blocks]
-// and the multipliers are the eigenvalues of the B_j. B_0 holds those of the motions in which all parts move alike, B_j
-// and B_(N-j) have conjugate ones: of real multipliers these are pairs that cross the unit circle together, which no
-// change of a sign tells. In its own block each is simple.
+// and the multipliers are the eigenvalues of the B_j. B_0 has the multipliers of the disturbances that are equal in all
+// parts. B_j and B_(N-j) have conjugate ones: real multipliers form pairs that cross the unit circle together, without
+// a change of sign of a determinant of M. In its own block each one is simple.
 //
-// Neutral directions c (a free rigid rotation: the flow does not change when all states are shifted along c) have
-// M c = c whatever the orbit. With C the space of all of them, the states modulo C are looked at instead,
+// Neutral directions c (a free rigid rotation: the flow does not change when all states are shifted along c) have M c =
+// c whatever the orbit. With C the space of all of them, the blocks act on the states modulo C,
 //
 //   V_j an orthonormal basis of what of the range of P_j is orthogonal to P_j C ,    B_j = V_j^H M V_j    [A-neutral]
 //
@@ -56,7 +57,8 @@ struct CyclicSymmetry {
 /// none.
 [[nodiscard]] std::vector<InvariantBlock> invariant_blocks(std::size_t dimension, const CyclicSymmetry& symmetry);
 
-/// B_j, with factors as M has them: a symmetry that commutes with the flow at each phase keeps the block in each piece.
+/// B_j, with factors as M has them: a symmetry that commutes with the flow at each phase keeps the block in each
+/// shooting interval.
 [[nodiscard]] MatrixProduct real_block_of(const InvariantBlock& block, const MatrixProduct& monodromy);
 [[nodiscard]] ComplexMatrixProduct block_of(const InvariantBlock& block, const MatrixProduct& monodromy);
 
@@ -67,7 +69,7 @@ struct CyclicSymmetry {
 /// How far rounding may have moved each of them [A-schur].
 [[nodiscard]] std::vector<double> multiplier_errors(const InvariantBlock& block, const MatrixProduct& monodromy);
 
-/// "synchronous", "wave 1 of 3".
+/// "synchronous", "symmetry index 1 of 3".
 [[nodiscard]] std::string block_name(const InvariantBlock& block, int order);
 
 }  // namespace epicyclic::analysis

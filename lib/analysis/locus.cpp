@@ -27,7 +27,7 @@ enum class Form {
   contact,   ///< an extremum of a surface
 };
 
-/// By how much a line through 0 turns from one direction to another [rad].
+/// Angle between the lines through 0 in two directions [rad].
 double line_angle(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return std::acos(std::clamp(std::abs(a.dot(b)) / (a.norm() * b.norm()), 0.0, 1.0));
 }
@@ -57,7 +57,7 @@ class Locus {
             : !block_->real                               ? Form::single
             : subject.kind == SpecialKind::neimark_sacker ? Form::pair
                                                           : Form::bordered;
-    at_ = subject.kind == SpecialKind::flip ? -1.0 : 1.0;
+    at_ = subject.kind == SpecialKind::period_doubling ? -1.0 : 1.0;
   }
   Locus(const Locus&) = delete;
   Locus& operator=(const Locus&) = delete;
@@ -78,8 +78,8 @@ class Locus {
     const std::vector<ClosingRow> rows = {row, {&near.across}};
     OrbitPlace z = guess;
     double slope = near.slope;
-    double way = 0.0;  // along the orbits of the plane
-    double way_before = 0.0;
+    double distance = 0.0;  // along the orbits of the plane
+    double distance_before = 0.0;
     double g_before = 0.0;
     double stepped = std::numeric_limits<double>::infinity();
     constexpr int iterations = 10;
@@ -96,8 +96,8 @@ class Locus {
         result.message = "the function of the locus has no value here";
         return result;
       }
-      // Steps as short as the noise of g tell no slope, unless they agree with the one that is known.
-      const double seen = k > 0 ? (*g - g_before) / (way - way_before) : slope;
+      // A slope from a step as short as the noise of g counts only if it agrees with the known slope.
+      const double seen = k > 0 ? (*g - g_before) / (distance - distance_before) : slope;
       constexpr double alike = 2.0;
       const bool agrees = seen / slope > 1.0 / alike && seen / slope < alike;
       if (std::isfinite(seen) && seen != 0.0 && (agrees || stepped > surface_.family.known)) slope = seen;
@@ -120,8 +120,8 @@ class Locus {
         return result;
       }
       g_before = *g;
-      way_before = way;
-      way += step;
+      distance_before = distance;
+      distance += step;
       stepped = std::abs(step);
       z = newton.at + step * along;
     }
@@ -156,7 +156,7 @@ class Locus {
     return correct(first, first.at, {&first.direction});
   }
 
-  /// A part of the way from a to b, in the plane there that stands on a's direction.
+  /// A point between a and b, in the plane there that stands on a's direction.
   LocusCorrection between(const LocusPoint& a, const LocusPoint& b, double part) {
     const OrbitPlace guess = cubic_between(a.at, a.direction, b.at, b.direction, inner(b.at - a.at, a.direction),
                                            inner(b.direction, a.direction), part);
@@ -228,7 +228,7 @@ class Locus {
     std::optional<double> g;
     switch (form_) {
       case Form::bordered: {
-        // Bordered where orbits begin and end: what that says of M - at I does not depend on the pieces.
+        // Bordered where orbits begin and end: what that says of M - c I does not depend on the shooting intervals.
         const Eigen::MatrixXd cyclic = shifted(monodromy);
         const Eigen::Index n = cyclic.rows();
         const Eigen::Index size = near.right.size();
@@ -307,7 +307,7 @@ class Locus {
   }
 
   [[nodiscard]] std::optional<OrbitPlace> cut(const OrbitPlace& z) const {
-    std::optional<CurvePoint> c = cut_into_pieces(surface_.at(z.values(1)), z.states.col(0), z.values(0));
+    std::optional<CurvePoint> c = split_into_intervals(surface_.at(z.values(1)), z.states.col(0), z.values(0));
     if (!c) return std::nullopt;
     return OrbitPlace{std::move(c->states), z.values};
   }
@@ -392,7 +392,7 @@ struct Event {
   std::complex<double> expected{};   ///< where it is, of a pair
   Function own{};                    ///< of the locus' own: of another sign on each side, and smooth
 
-  /// Of another sign on each side, whatever else happens to the multipliers.
+  /// Has opposite signs on the two sides, whatever else happens to the multipliers.
   [[nodiscard]] double sign(const Locus& locus, const LocusPoint& p) const {
     if (!crossing) return own(locus, p);
     const InvariantBlock& block = locus.block(symmetry_index);
@@ -418,7 +418,7 @@ struct Event {
     return *crossing == Crossing::pair ? std::log(std::abs(x)) : (x - at()).real();
   }
 
-  /// Looks for a pair where it is at a point close to the event.
+  /// Searches for a pair at a point close to the event.
   void expect_near(const Locus& locus, const LocusPoint& p) {
     if (crossing == Crossing::pair) expected = locus.others(locus.block(symmetry_index), p).at(inside);
   }
@@ -479,19 +479,25 @@ CodimTwo name_of(const Locus& locus, const InvariantBlock& block, Crossing cross
   const LocusSubject& s = locus.subject();
   const bool same = block.symmetry_index == s.symmetry_index;
   const bool fold = s.kind == SpecialKind::fold;
-  const bool flip = s.kind == SpecialKind::flip;
+  const bool period_doubling = s.kind == SpecialKind::period_doubling;
   const bool torus = s.kind == SpecialKind::neimark_sacker;
   const bool synchronous = block.symmetry_index == 0;
   switch (crossing) {
     case Crossing::plus:
-      if (same && !flip && !torus) return CodimTwo::resonance_1_1;
+      if (same && !period_doubling && !torus) return CodimTwo::resonance_1_1;
       if (!synchronous) return CodimTwo::double_crossing;
-      return flip ? CodimTwo::fold_flip : torus ? CodimTwo::fold_neimark_sacker : CodimTwo::double_crossing;
+      return period_doubling ? CodimTwo::fold_period_doubling
+             : torus         ? CodimTwo::fold_neimark_sacker
+                             : CodimTwo::double_crossing;
     case Crossing::minus:
-      if (same && flip) return CodimTwo::resonance_1_2;
-      return fold ? CodimTwo::fold_flip : torus ? CodimTwo::flip_neimark_sacker : CodimTwo::double_crossing;
+      if (same && period_doubling) return CodimTwo::resonance_1_2;
+      return fold    ? CodimTwo::fold_period_doubling
+             : torus ? CodimTwo::period_doubling_neimark_sacker
+                     : CodimTwo::double_crossing;
     case Crossing::pair:
-      return fold ? CodimTwo::fold_neimark_sacker : flip ? CodimTwo::flip_neimark_sacker : CodimTwo::double_crossing;
+      return fold              ? CodimTwo::fold_neimark_sacker
+             : period_doubling ? CodimTwo::period_doubling_neimark_sacker
+                               : CodimTwo::double_crossing;
     case Crossing::unresolved:
       break;
   }
@@ -538,7 +544,7 @@ Codim2Point locate(Locus& locus, Event event, const LocusPoint& a, const LocusPo
       near = c.point;
       return event.sign(locus, c.point);
     };
-    // To a thousandth of the way.
+    // To a thousandth of the distance.
     constexpr double width = 1e-3;
     const double part = find_root(function, 0.0, 1.0, width);
     function(part);
@@ -592,7 +598,7 @@ void find_marks(Locus& locus, const LocusPoint& a, const LocusPoint& b, const Lo
 /// All points of codimension two between two points, in order.
 std::vector<Codim2Point> marks_between(Locus& locus, const LocusPoint& a, const LocusPoint& b,
                                        const LocusOptions& options) {
-  // Of what is left after as many, neighbours differ by 1e-6 of their distance.
+  // After this number of halvings, neighbours differ by 1e-6 of their distance.
   constexpr int halvings = 20;
   std::vector<Codim2Point> found;
   find_marks(locus, a, b, options, halvings, found);
@@ -616,11 +622,11 @@ std::string to_string(CodimTwo kind) {
       return "resonance_1_3";
     case CodimTwo::resonance_1_4:
       return "resonance_1_4";
-    case CodimTwo::fold_flip:
+    case CodimTwo::fold_period_doubling:
       return "fold_flip";
     case CodimTwo::fold_neimark_sacker:
       return "fold_neimark_sacker";
-    case CodimTwo::flip_neimark_sacker:
+    case CodimTwo::period_doubling_neimark_sacker:
       return "flip_neimark_sacker";
     case CodimTwo::double_crossing:
       return "double_crossing";
@@ -666,7 +672,7 @@ LocusCorrection locus_start(const OrbitSurface& surface, const SpecialPoint& poi
   Locus locus(surface, subject_of(point), point.orbit.at.states.rows());
   OrbitPlace z{point.orbit.at.states, Eigen::Vector2d(point.orbit.at.value, second)};
   if (z.states.cols() != surface.family.shooting_intervals) {
-    const auto cut = cut_into_pieces(surface.at(second), z.states.col(0), z.values(0));
+    const auto cut = split_into_intervals(surface.at(second), z.states.col(0), z.values(0));
     if (!cut) {
       LocusCorrection none;
       none.message = "the orbit could not be divided into shooting intervals";
@@ -697,21 +703,21 @@ OrbitPlace LocusTrace::guess(double step) const {
   return state_.now.at + step * state_.now.direction + (0.5 * step * step) * state_.tangent_derivative;
 }
 
-/// The edge that is met first on the way to a place.
+/// The edge that is met first between the current point and a place.
 std::optional<LocusTrace::Edge> LocusTrace::edge_before(const OrbitPlace& there) const {
   std::optional<Edge> first;
   double least = 1.0;
-  const auto ask = [&](Eigen::Index parameter, double edge) {
+  const auto request = [&](Eigen::Index parameter, double edge) {
     const double now = state_.now.at.values(parameter);
     const double part = (edge - now) / (there.values(parameter) - now);
     if (!(part > 0.0 && part <= least)) return;
     least = part;
     first = Edge{parameter, edge};
   };
-  ask(0, options_.along.from);
-  ask(0, options_.along.to);
-  ask(1, options_.second_from);
-  ask(1, options_.second_to);
+  request(0, options_.along.from);
+  request(0, options_.along.to);
+  request(1, options_.second_from);
+  request(1, options_.second_to);
   return first;
 }
 
@@ -719,8 +725,8 @@ std::optional<LocusTrace::Edge> LocusTrace::edge_before(const OrbitPlace& there)
 bool LocusTrace::leaves_here() const {
   const auto leaves = [&](Eigen::Index parameter, double from, double to) {
     const double now = state_.now.at.values(parameter);
-    const double way = state_.now.direction.values(parameter);
-    return (now == to && way > 0.0) || (now == from && way < 0.0);
+    const double component = state_.now.direction.values(parameter);
+    return (now == to && component > 0.0) || (now == from && component < 0.0);
   };
   return leaves(0, options_.along.from, options_.along.to) || leaves(1, options_.second_from, options_.second_to);
 }
@@ -732,7 +738,7 @@ bool LocusTrace::accept(const Locus& locus, const LocusCorrection& c, double ste
     return false;
   }
   double angle = std::acos(std::clamp(locus.inner(state_.now.direction, c.point.direction), -1.0, 1.0));
-  // The line of a fold's parameters may turn as many times as far: a cusp is told by it.
+  // The line of a fold's parameters may rotate by this multiple of the angle: its rotation identifies a cusp.
   constexpr double times = 4.0;
   if (subject_.kind == SpecialKind::fold)
     angle = std::max(angle, line_angle(locus.line(state_.now), locus.line(c.point)) / times);
@@ -745,13 +751,13 @@ bool LocusTrace::accept(const Locus& locus, const LocusCorrection& c, double ste
 
 bool LocusTrace::back_at_the_start(Locus& locus, const LocusPoint& next, double step) const {
   if (!state_.left_start) return false;
-  // Between now and next, going the same way.
+  // Between this point and the next, with the same direction.
   const OrbitPlace to_start = start_.at - state_.now.at;
   const double ahead = locus.inner(to_start, state_.now.direction);
   if (ahead < 0.0 || ahead > step || locus.inner(next.direction, start_.direction) < 0.0) return false;
   if (locus.length(to_start) > 2.0 * step) return false;
   const LocusCorrection c = locus.correct(state_.now, guess(ahead), {&state_.now.direction});
-  // Of one locus to the corrector's own accuracy, in parts of a step.
+  // Equal points of one locus: to the corrector's own accuracy, in parts of a step.
   constexpr double same = 1e-3;
   return c.found && locus.length(c.point.at - start_.at) < same * step;
 }
@@ -807,7 +813,7 @@ bool LocusTrace::advance() {
       if (step_onto(locus, *edge, state_.step)) return true;
     } else {
       const LocusCorrection c = locus.correct(state_.now, ahead, {&state_.now.direction});
-      // What the guess did not reach may have been passed all the same: a shorter step will tell.
+      // The step may have passed an edge that the guess did not reach: a shorter step decides.
       if (accept(locus, c, state_.step) && !edge_before(c.point.at)) {
         if (back_at_the_start(locus, c.point, state_.step)) {
           take(locus, start_);

@@ -3,37 +3,37 @@
 // The orbits F(z) = 0 over two parameters, z = (y_0 ... y_p-1, lambda, mu), are a surface. On it a special point is a
 // curve g(z) = 0,
 //
-//   fold, flip          g of (B - c I) x + g u = 0, <v, x> = 1, c = +1, -1; x, u, v of the block B [A-blocks]: 0 with
+//   fold, doubling      g of (B - c I) x + g u = 0, <v, x> = 1, c = +1, -1; x, u, v of the block B [A-blocks]: 0 with
 //   and branch point    det(B - c I), and smooth where other multipliers meet the critical one
 //   Neimark-Sacker      log |product of the pair| / 2, of the one multiplier in a block that stands for two
 //   grazing             the least or greatest value of a switching surface along the orbit
 //
 //   F(z) = 0 ,   g(z) = 0 ,   <t, z - z*> = 0                                                           [A-locus]
 //
-// with lengths over the states and both parameters [A-length]. In the plane that stands on t the orbits are a curve, on
+// with lengths over the states and both parameters [A-length]. In the plane normal to t the orbits are a curve, on
 // which the root of g is found by secants. The direction t' is that on the surface in which g does not change. The
-// locus is a smooth curve in this space at cusps too, where its image in the plane of the parameters turns back.
-// u and v are the singular vectors of the least singular value at the last point.
-// Sources: W. Govaerts, Numerical Methods for Bifurcations of Dynamical Equilibria (2000), ch. 3 and 4 (bordered
-// matrices); R. Seydel, Practical Bifurcation and Stability Analysis, 3rd ed., ch. 5; Keller (1977).
+// locus is a smooth curve in this space. This holds at cusps too, where its image in the plane of the parameters
+// reverses. u and v are the singular vectors of the least singular value at the last point. Sources: W. Govaerts,
+// Numerical Methods for Bifurcations of Dynamical Equilibria (2000), ch. 3 and 4 (bordered matrices); R. Seydel,
+// Practical Bifurcation and Stability Analysis, 3rd ed., ch. 5; Keller (1977).
 //
 // Points of codimension two [A-codim2] are roots of a function of the arc length that changes its sign there:
 //
 //   cusp              of folds: <w, p> = 0, p the parameters' part of t, w the direction of its line, followed
 //   1:1, 1:2          a second multiplier of the block at c; of Neimark-Sacker points the pair meets at c
 //   1:3, 1:4          of Neimark-Sacker points: the angle of the pair is 2 pi / 3, pi / 2
-//   fold-flip ...     another multiplier at +1 or -1, or another pair on the unit circle, told by counts [A-special]
+//   fold-doubling ... another multiplier at +1 or -1, or another pair on the unit circle, by counts [A-special]
 //
 // Source: Yu. A. Kuznetsov, Elements of Applied Bifurcation Theory, 3rd ed., ch. 9.
 //
-// Bounds: the locus is met again, in the plane that stands on it there, by other tolerances and subdivisions, and
-// points of codimension two are found again along it; [A-bound] of the parameter that moves more, in their scales.
+// Bounds: the locus is computed again, in its normal plane there, by other tolerances and subdivisions. Points of
+// codimension two are found again along it; [A-bound] of the parameter that moves more, in their scales.
 //
 // Smoothness: a locus is as smooth as the monodromy, one derivative less than the flow: at grazings of a continuous
-// field fold and flip loci have corners or end. Limits: a locus of Neimark-Sacker points ends where its pair becomes
-// real, at 1:1 and 1:2. Branch points that keep the symmetry are no curve in two parameters. Two points of codimension
-// two of one kind between neighbours, there and back, are not seen; where two come together that the counts cannot part
-// they are told as unresolved.
+// field, loci of folds and of period doublings have corners or end. Limits: a locus of Neimark-Sacker points
+// ends where its pair becomes real, at 1:1 and 1:2. Branch points that keep the symmetry are no curve in two
+// parameters. Two points of codimension two of one kind between neighbours, there and back, are not seen. Two points
+// that coincide and that the counts cannot separate are reported as unresolved.
 #pragma once
 
 #include <complex>
@@ -54,12 +54,12 @@
 
 namespace epicyclic::analysis {
 
-/// Flows of systems that differ by two parameters. Where fields have the derivative by the first one, so do the flows.
+/// Flows of systems that differ by two parameters. If fields have the derivative by the first one, so do the flows.
 using PlaneOfFlows = std::function<std::unique_ptr<integrate::Flow>(double first, double second)>;
 
 struct OrbitSurface {
   PlaneOfFlows flows;
-  OrbitFamily family{};         ///< all but its flows: period, pieces, scales, symmetry, Newton's method
+  OrbitFamily family{};         ///< all but its flows: period, shooting intervals, scales, symmetry, Newton's method
   double second_scale = 1;      ///< of the second parameter; that of the first is family.value_scale
   double gradient_step = 1e-4;  ///< along the surface, a length, of the differences of g
 
@@ -79,9 +79,9 @@ enum class CodimTwo {
   resonance_1_2,
   resonance_1_3,
   resonance_1_4,
-  fold_flip,
+  fold_period_doubling,
   fold_neimark_sacker,
-  flip_neimark_sacker,
+  period_doubling_neimark_sacker,
   double_crossing,  ///< two of other kinds at once: two pairs, or one that breaks the symmetry with another
   unresolved,       ///< several at once
 };
@@ -103,7 +103,7 @@ struct LocusPoint {
   OrbitPlace at;                                                  ///< values: both parameters
   OrbitPlace direction;                                           ///< t, of length 1
   OrbitPlace across;                                              ///< of length 1: on the surface, normal to t
-  double slope = 0;                                               ///< of g that way
+  double slope = 0;                                               ///< of g in that direction
   MatrixProduct monodromy;                                        ///< M
   std::complex<double> multiplier;                                ///< on the unit circle
   std::complex<double> partner;                                   ///< of the pair, if it is one
@@ -146,12 +146,12 @@ enum class LocusEnd {
   none,       ///< it goes on
   range,      ///< an edge of the rectangle, which the last point is at
   closed,     ///< the locus has come back to its first point, which stands last again
-  many,       ///< as many points as asked for
+  many,       ///< the requested number of points
   min_step,   ///< no point within the least step
   resonance,  ///< the pair has become real at 1:1 or 1:2, which the last point is at
 };
 
-/// What a search for a point of a locus came to.
+/// Result of the search for a point of a locus.
 struct LocusCorrection {
   bool found = false;
   LocusPoint point;       ///< if found
@@ -160,16 +160,14 @@ struct LocusCorrection {
   std::string message{};  ///< why not found
 };
 
-/// The special point of a branch as a point of its locus, the direction that of a rising second parameter (of a rising
-/// first one, where the second rests). Its bounds are not known yet.
-/// @param second  value of the second parameter on that branch
-/// @throws InputError for a kind that has no locus: unresolved, and branch points that keep the symmetry
+/// The special point of a branch as a point of its locus. The second parameter rises in its direction; if the second is
+/// constant, the first rises. Its bounds are not known yet.
 [[nodiscard]] LocusCorrection locus_start(const OrbitSurface& surface, const SpecialPoint& point, double second);
 
-/// What the locus of a special point is a locus of.
+/// The function that is zero on the locus of a special point.
 [[nodiscard]] LocusSubject subject_of(const SpecialPoint& point);
 
-/// The other way along the locus.
+/// The locus in the opposite direction.
 [[nodiscard]] LocusPoint reversed(LocusPoint point);
 
 /// All that a trace goes on from.
@@ -187,14 +185,14 @@ struct LocusState {
 
 class Locus;
 
-/// A locus from one point one way.
+/// A locus from one point, in one direction.
 class LocusTrace {
  public:
-  /// @param start  a point of the locus, its direction the way to go
+  /// @param start  a point of the locus, whose direction is the direction of the continuation
   /// @throws InputError for options out of range, or a start outside the rectangle
   LocusTrace(OrbitSurface surface, const LocusSubject& subject, LocusOptions options, LocusPoint start);
 
-  /// Follows the locus to the next point, with its bounds and the points of codimension two on the way.
+  /// Follows the locus to the next point. Finds its bounds and the points of codimension two between both points.
   /// @returns whether there is one
   bool advance();
 

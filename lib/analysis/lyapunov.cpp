@@ -19,7 +19,7 @@ namespace epicyclic::analysis {
 
 namespace {
 
-/// Of a spectrum's vectors within a part of an interval: log of the largest stretch over the smallest.
+/// Limit for the vectors of a spectrum within a part of an interval: log of the largest growth over the smallest.
 const double most_apart = std::log(1e6);
 constexpr int most_parts = 65536;
 
@@ -115,8 +115,8 @@ LyapunovSpectrum lyapunov_spectrum(integrate::Flow& flow, std::span<double> stat
   if (!(interval > 0.0)) throw DomainError("exponents of a field without a period need an interval");
   const auto rows = static_cast<Eigen::Index>(n);
   const auto columns = static_cast<Eigen::Index>(m);
-  // Vectors along the axes could lie in a subspace that the motion keeps (planets in step, say) and would leave it by
-  // rounding alone: the exponents would come in another order than by size.
+  // Vectors along the axes could lie in an invariant subspace of the trajectory (planets in step, say) and would leave
+  // it by rounding alone. The exponents would then be in another order than by size.
   Eigen::MatrixXd v(rows, columns);
   std::uint64_t number = 0;
   for (double& x : v.reshaped()) x = random_uniform(1, ++number) - 0.5;

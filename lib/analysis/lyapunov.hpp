@@ -3,8 +3,9 @@
 //   g_k = log | v(s_k + T) | / | v(s_k) | ,   v rescaled to length 1 after each period T of the forcing
 //   lambda = mean(g) / T  per unit of s, with the interval of [A-mean]                                   [A-lyap]
 //
-// Source: Benettin et al., Meccanica 15 (1980) 9. Limits: where the two largest exponents are equal or nearly so, the
-// vector turns for ever and the interval says so; an interval is no proof beyond the time it was measured over.
+// Source: Benettin et al., Meccanica 15 (1980) 9. Limits: if the two largest exponents are equal or nearly so, the
+// vector does not converge to a direction, and the interval is wide. An interval is no proof beyond the time that it
+// was measured over.
 #pragma once
 
 #include <functional>
@@ -17,11 +18,12 @@
 namespace epicyclic::analysis {
 
 struct LyapunovOptions {
-  int aligning_periods = 50;  ///< before growth is counted, for the vector to turn to the fastest direction
+  int aligning_periods = 50;  ///< before growth is counted, for the vector to rotate to the fastest direction
   int periods = 500;          ///< counted
 
-  /// Projects a vector onto a subspace that the linearised flow leaves invariant, as do the directions that break a
-  /// symmetry of the motion: the exponent is then the largest of that subspace. Keeps rounding from leading out of it.
+  /// Projects a vector onto a subspace that the linearised flow leaves invariant, such as the directions that break a
+  /// symmetry of the trajectory. The exponent is then the largest of that subspace. The projection removes rounding
+  /// that leads out of it.
   std::function<void(std::span<double> v)> project{};
 
   /// @throws InputError for negative aligning periods, or no period counted
@@ -30,14 +32,14 @@ struct LyapunovOptions {
 
 struct LargestExponent {
   integrate::Evolution evolution;  ///< how it ended; growth holds the periods until then
-  Estimate per_s;                  ///< lambda [1 / unit of s]; not a number unless all periods were carried
+  Estimate per_s;                  ///< lambda [1 / unit of s]; not a number if an integration failed
   std::vector<double> growth;      ///< g_k, one per counted period
   std::vector<double> direction;   ///< v at the end, of length 1
 };
 
-/// @param state     carried on, replaced by the last state
+/// @param state     initial state, replaced by the last state
 /// @param observer  sees the state after each counted period; may be empty
-/// @param go_on     asked before each period; false ends it
+/// @param go_on     called before each period; false ends the computation
 /// @throws InputError for options out of range
 [[nodiscard]] LargestExponent largest_exponent(integrate::Flow& flow, std::span<double> state,
                                                const LyapunovOptions& options, const integrate::Observer& observer,
@@ -46,8 +48,9 @@ struct LargestExponent {
 /// Log growth of the tangent vector over the last half of a record g_k.
 [[nodiscard]] double late_growth(std::span<const double> growth);
 
-/// Up to this much, either way, it is no growth: beside a torus vectors part linearly in time, by log 2 in the last
-/// half, and the torus' waves need some room; an exponent of 0.001 per unit of time exceeds it in 2000 units.
+/// A growth within these limits counts as none. Beside a torus vectors separate linearly in time, by log 2 in the last
+/// half, and the periods of the torus need some tolerance. An exponent of 0.001 per unit of time exceeds the limit in
+/// 2000 units.
 inline constexpr double neutral_growth = 2.0;
 
 /// m exponents from m tangent vectors, orthonormalised after each interval T:
@@ -86,9 +89,9 @@ struct LyapunovSpectrum {
   [[nodiscard]] std::vector<double> history(std::size_t i) const;
 };
 
-/// @param state  carried on, replaced by the last state
-/// @throws DomainError when more exponents than dimensions are asked for, or neither options nor field have an
-/// interval; InputError for options out of range
+/// @param state  initial state, replaced by the last state
+/// @throws DomainError if more exponents than dimensions are requested, or neither options nor field have an interval;
+/// InputError for options out of range
 [[nodiscard]] LyapunovSpectrum lyapunov_spectrum(integrate::Flow& flow, std::span<double> state,
                                                  const SpectrumOptions& options, const std::function<bool()>& go_on);
 
@@ -98,7 +101,7 @@ struct LyapunovSpectrum {
 [[nodiscard]] double kaplan_yorke_dimension(std::span<const double> exponents);
 
 /// The field with one more component z, dz/ds = tr dg/dy: (z(s_1) - z(s_0)) / (s_1 - s_0) is the mean divergence along
-/// the motion, which the exponents have to add up to. Without tangents.
+/// the trajectory, which equals the sum of the exponents. Without tangents.
 [[nodiscard]] VectorField with_divergence(const VectorField& field);
 
 }  // namespace epicyclic::analysis

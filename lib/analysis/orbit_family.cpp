@@ -42,8 +42,8 @@ Correction iterate(const OrbitFamily& family, const CurvePoint& guess, const Cur
   result.orbit.residual = newton.residual;
   result.message = std::move(newton.message);
   if (!newton.found) return result;
-  const OrbitPlace way = place_of(along);
-  const OrbitPlace t = system.tangent(newton.last, {{&way}}, 0);
+  const OrbitPlace direction = place_of(along);
+  const OrbitPlace t = system.tangent(newton.last, {{&direction}}, 0);
   const double norm = system.length(t);
   if (!finite(t) || !(norm > 0.0)) {
     result.message = "the branch has no direction of its own here";
@@ -70,7 +70,7 @@ void check_neutral(const OrbitFamily& family, double value, std::span<const doub
   constexpr double dependent = 1e-10;
   if (c.cols() > n || !(r.cwiseAbs().minCoeff() > dependent * c.colwise().norm().maxCoeff()))
     throw InputError("neutral directions depend on each other");
-  // Of shifts as long as the state's scale and longer, by differences of sums of a few terms.
+  // Rounding of differences of sums of a few terms, for shifts at least as long as the state's scale.
   constexpr double rounding = 1e-9;
   const Eigen::MatrixXd& s = family.symmetry.map;
   if (s.size() != 0)
@@ -152,10 +152,10 @@ Correction between(const OrbitFamily& family, const BranchOrbit& a, const Branch
   return correct(family, guess, a.direction);
 }
 
-std::optional<CurvePoint> cut_into_pieces(const OrbitFamily& family, const Eigen::VectorXd& y, double value) {
+std::optional<CurvePoint> split_into_intervals(const OrbitFamily& family, const Eigen::VectorXd& y, double value) {
   CurvePoint z{Eigen::MatrixXd(y.size(), family.shooting_intervals), value};
   z.states.col(0) = y;
-  if (!carry_to_intervals(*family.flows(value), family.period, z.states).reached()) return std::nullopt;
+  if (!integrate_to_intervals(*family.flows(value), family.period, z.states).reached()) return std::nullopt;
   z.states = without_shift(family, z.states);
   return z;
 }
@@ -165,7 +165,7 @@ Correction first_orbit(const OrbitFamily& family, double value, std::span<const 
   check_neutral(family, value, state);
   Eigen::MatrixXd y(static_cast<Eigen::Index>(state.size()), family.shooting_intervals);
   std::copy(state.begin(), state.end(), y.data());
-  const integrate::Evolution e = carry_to_intervals(*family.flows(value), family.period, y);
+  const integrate::Evolution e = integrate_to_intervals(*family.flows(value), family.period, y);
   if (!e.reached()) {
     Correction result;
     result.message = e.message;

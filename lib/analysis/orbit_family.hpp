@@ -44,7 +44,7 @@ struct OrbitFamily {
   bool keeps_symmetry = true;  ///< the orbits are those that it leaves as they are: Newton's method stays among them
 
   /// Directions in which all states may be shifted without changing the flows, as columns: a free rigid rotation.
-  /// Orbits close but for a shift along them, and are told by their states orthogonal to them [A-neutral].
+  /// Orbits close up to a shift along them, and are compared by their states orthogonal to them [A-neutral].
   Eigen::MatrixXd neutral{};
 
   double residual = 1e-10;  ///< max |F| that Newton's method ends below; the orbit is nearer by its last step
@@ -60,14 +60,14 @@ struct OrbitFamily {
     return s;
   }
 
-  /// @throws InputError for a period, pieces or iterations below 1, or scales that are not positive
+  /// @throws InputError for a period, shooting intervals or iterations below 1, or scales that are not positive
   void validate() const;
 };
 
-/// Asks the field itself, at the phases and shifts of a probe, whether the neutral directions are neutral.
+/// Checks with the field, at the phases and shifts of a probe, that the neutral directions are neutral.
 /// @param state  about which to probe
-/// @throws InputError if they are not, or not a subspace that the symmetry and its transpose keep, or of another
-/// dimension
+/// @throws InputError if they are not, if the symmetry and its transpose do not keep their subspace, or if it has
+/// another dimension
 void check_neutral(const OrbitFamily& family, double value, std::span<const double> state);
 
 /// Multipliers of an orbit of the family by falling modulus, without the ones of neutral directions.
@@ -121,16 +121,16 @@ struct Correction {
 [[nodiscard]] Correction correct_at(const OrbitFamily& family, double value, const Eigen::MatrixXd& guess,
                                     const CurvePoint* along = nullptr);
 
-/// The orbit a part of the way from a to its neighbour b, in the plane there that stands on a's direction.
-/// @param part  in [0, 1]
+/// The orbit between a and its neighbour b, in the plane there that stands on a's direction.
+/// @param part  fraction of the distance, in [0, 1]
 [[nodiscard]] Correction between(const OrbitFamily& family, const BranchOrbit& a, const BranchOrbit& b, double part);
 
-/// The states at the beginnings of the family's pieces of the motion from y.
-/// @returns nothing if it could not be carried; without shifts along neutral directions
-[[nodiscard]] std::optional<CurvePoint> cut_into_pieces(const OrbitFamily& family, const Eigen::VectorXd& y,
-                                                        double value);
+/// The states of the trajectory from y at the beginnings of the family's shooting intervals.
+/// @returns nothing if the integration failed; without shifts along neutral directions
+[[nodiscard]] std::optional<CurvePoint> split_into_intervals(const OrbitFamily& family, const Eigen::VectorXd& y,
+                                                             double value);
 
-/// The orbit at a value from one state, cut into the family's pieces.
+/// The orbit at a value from one state, split into the family's shooting intervals.
 /// @throws as check_neutral()
 [[nodiscard]] Correction first_orbit(const OrbitFamily& family, double value, std::span<const double> state);
 

@@ -59,14 +59,14 @@ double states_length(const OrbitFamily& family, const Eigen::MatrixXd& states) {
   return std::sqrt(states.squaredNorm() / static_cast<double>(states.size())) / family.state_scale;
 }
 
-/// Newton's steps at one place, with the states of all pieces condensed to y_0.
+/// Newton's steps at one place, with the states of all shooting intervals condensed to y_0.
 class Linearised {
  public:
   Linearised(const Eigen::MatrixXd& kept, const Shot& shot) : kept_(kept) {
     const Eigen::Index m = kept.cols();
     matrix_ = Eigen::MatrixXd::Identity(m, m);
-    for (const Eigen::MatrixXd& piece : shot.interval_maps) {
-      shooting_intervals_.push_back(product(transposed_product(kept, piece), kept));
+    for (const Eigen::MatrixXd& interval_map : shot.interval_maps) {
+      shooting_intervals_.push_back(product(transposed_product(kept, interval_map), kept));
       matrix_ = product(shooting_intervals_.back(), matrix_);
     }
     matrix_ = Eigen::MatrixXd::Identity(m, m) - matrix_;
@@ -75,15 +75,15 @@ class Linearised {
   /// d with M_i d_i - d_i+1 = -r_i.
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& r) const {
     Eigen::VectorXd d = Eigen::VectorXd::Zero(kept_.cols());
-    const auto carry = [&](Eigen::Index i) {
+    const auto advance = [&](Eigen::Index i) {
       d = shooting_intervals_[static_cast<std::size_t>(i)] * d + kept_.transpose() * r.col(i);
     };
-    for (Eigen::Index i = 0; i < r.cols(); ++i) carry(i);
+    for (Eigen::Index i = 0; i < r.cols(); ++i) advance(i);
     d = solution(matrix_, d);
     Eigen::MatrixXd all(kept_.rows(), r.cols());
     for (Eigen::Index i = 0; i < r.cols(); ++i) {
       all.col(i) = kept_ * d;
-      carry(i);
+      advance(i);
     }
     return all;
   }
@@ -129,8 +129,8 @@ class Deflation {
   std::vector<Eigen::VectorXd> known_;
 };
 
-/// Where one start's way ended.
-struct Way {
+/// Result of Newton's method from one start.
+struct NewtonRun {
   std::optional<BranchOrbit> orbit;
   SearchFailure why = SearchFailure::no_descent;
   std::string message;
@@ -138,28 +138,28 @@ struct Way {
 };
 
 /// The damped method from one state, by a flow of its own.
-Way follow(const OrbitFamily& family, double value, const Eigen::VectorXd& start, const Deflation& deflation,
-           const SearchOptions& options) {
-  Way way;
+NewtonRun follow(const OrbitFamily& family, double value, const Eigen::VectorXd& start, const Deflation& deflation,
+                 const SearchOptions& options) {
+  NewtonRun run;
   const auto failed = [&](SearchFailure why, std::string message) {
-    way.why = why;
-    way.message = std::move(message);
-    return way;
+    run.why = why;
+    run.message = std::move(message);
+    return run;
   };
   const auto flow = family.flows(value);
   const Eigen::MatrixXd kept = kept_states(family, start.size());
   const auto keep = [&](const Eigen::MatrixXd& states) { return product(kept, transposed_product(kept, states)); };
   Eigen::MatrixXd y(start.size(), family.shooting_intervals);
   y.col(0) = keep(start);
-  if (const integrate::Evolution e = carry_to_intervals(*flow, family.period, y); !e.reached())
-    return failed(SearchFailure::not_carried, e.message);
+  if (const integrate::Evolution e = integrate_to_intervals(*flow, family.period, y); !e.reached())
+    return failed(SearchFailure::not_integrated, e.message);
   y = keep(y);
   double damping = 1.0;
   int jumps = 0;
   for (int k = 0; k < options.iterations; ++k) {
     const Shot shot = shoot(*flow, y, family.period);
-    ++way.evaluations;
-    if (!shot.evolution.reached()) return failed(SearchFailure::not_carried, shot.evolution.message);
+    ++run.evaluations;
+    if (!shot.evolution.reached()) return failed(SearchFailure::not_integrated, shot.evolution.message);
     const Linearised linearised(kept, shot);
     const Eigen::MatrixXd d = linearised.solve(shot.residual);
     if (!d.allFinite()) return failed(SearchFailure::no_descent, "the equations are singular");
@@ -168,8 +168,8 @@ Way follow(const OrbitFamily& family, double value, const Eigen::VectorXd& start
     if (states_length(family, d) <= near) {
       Correction c = correct_at(family, value, y);
       if (!c.found) return failed(SearchFailure::not_corrected, c.message);
-      way.orbit = std::move(c.orbit);
-      return way;
+      run.orbit = std::move(c.orbit);
+      return run;
     }
     const Eigen::VectorXd at = y.col(0);
     const double log_m = deflation.log_value(at);
@@ -179,7 +179,7 @@ Way follow(const OrbitFamily& family, double value, const Eigen::VectorXd& start
     if (!std::isfinite(level)) return failed(SearchFailure::no_descent, "the deflated equations are singular");
     const double longest = std::min(1.0, options.max_step / level);
     damping = std::min(longest, 2.0 * damping);
-    // Where the equations are nearly singular steps are long ones: their least part is one of the longest allowed.
+    // If the equations are nearly singular, steps are long: the least one is a part of the longest one allowed.
     const double least = options.least_damping * damping;
     std::optional<Eigen::MatrixXd> next;
     for (; !next && damping >= least; damping *= 0.5) {
@@ -207,8 +207,8 @@ Way follow(const OrbitFamily& family, double value, const Eigen::VectorXd& start
   return failed(SearchFailure::iterations, "not at an orbit after " + std::to_string(options.iterations) + " steps");
 }
 
-/// A start, and the states of its motion at the beginnings of periods.
-struct Motion {
+/// A start, and the states of its trajectory at the beginnings of periods.
+struct Trajectory {
   std::vector<Eigen::VectorXd> states;
 
   /// The states from which n periods lead nearest to themselves, the nearest first, no more than `most`.
@@ -225,8 +225,8 @@ struct Motion {
   }
 };
 
-Motion motion_from(const OrbitFamily& family, double value, const std::vector<double>& start, int periods) {
-  Motion m;
+Trajectory trajectory_from(const OrbitFamily& family, double value, const std::vector<double>& start, int periods) {
+  Trajectory m;
   std::vector<double> y = start;
   const auto keep_state = [&] {
     m.states.emplace_back(Eigen::Map<const Eigen::VectorXd>(y.data(), static_cast<Eigen::Index>(y.size())));
@@ -255,7 +255,7 @@ bool are_one(const AttractorRecord& a, const AttractorRecord& b) {
   return label_attractors(std::vector<AttractorRecord>{a, b}).all.size() == 1;
 }
 
-AttractorRecord turned(const AttractorRecord& record, const Eigen::MatrixXd& map) {
+AttractorRecord rotated(const AttractorRecord& record, const Eigen::MatrixXd& map) {
   AttractorRecord r = record;
   const auto n = static_cast<Eigen::Index>(r.dimension);
   for (std::size_t k = 0; k < r.period(); ++k) {
@@ -274,7 +274,7 @@ struct Candidate {
   std::size_t start = 0;
 };
 
-/// @returns nothing if it could not be carried
+/// @returns nothing if the integration failed
 std::optional<Candidate> candidate(const OrbitFamily& family, const BranchOrbit& orbit, double map_error) {
   Candidate c{family, orbit, period_states(family, orbit.at), 0.0, 0};
   if (c.states.cols() == 0) return std::nullopt;
@@ -289,7 +289,7 @@ Candidate at_least_period(const OrbitFamily& system, Candidate c, double map_err
   const double largest = c.states.lpNorm<Eigen::Infinity>();
   for (int d = 1; d < n; ++d) {
     if (n % d != 0) continue;
-    // What does not come near itself need not be asked.
+    // An orbit that is not nearly closed after d periods does not have the period d.
     constexpr double comes_back = 1e-2;
     if (!((c.states.col(d) - c.states.col(0)).lpNorm<Eigen::Infinity>() <= comes_back * largest)) continue;
     const OrbitFamily shorter = of_period(system, d);
@@ -305,8 +305,8 @@ Candidate at_least_period(const OrbitFamily& system, Candidate c, double map_err
   return c;
 }
 
-/// What one start's ways of one kind came to.
-struct Ways {
+/// Results of one start's runs of one kind.
+struct StartRuns {
   std::vector<Candidate> led_to;
   SearchFailure why = SearchFailure::no_descent;  ///< of the last one that failed
   std::string message;
@@ -318,30 +318,30 @@ bool lexicographically_less(const Eigen::VectorXd& a, const Eigen::VectorXd& b) 
 }
 
 /// Different ones of what was found, images of each other one, in their order.
-std::vector<FoundOrbit> told_apart(const OrbitFamily& system, const std::vector<Candidate>& candidates) {
+std::vector<FoundOrbit> distinct_orbits(const OrbitFamily& system, const std::vector<Candidate>& candidates) {
   const CyclicSymmetry symmetry = system.symmetry.map.size() != 0 ? system.symmetry : CyclicSymmetry{};
-  std::vector<Eigen::MatrixXd> turns;
+  std::vector<Eigen::MatrixXd> rotations;
   std::vector<Symmetry> maps;
   for (int k = 1; k < symmetry.order; ++k) {
-    turns.emplace_back(k == 1 ? symmetry.map : Eigen::MatrixXd(symmetry.map * turns.back()));
-    maps.emplace_back([turn = turns.back()](std::span<const double> y) {
+    rotations.emplace_back(k == 1 ? symmetry.map : Eigen::MatrixXd(symmetry.map * rotations.back()));
+    maps.emplace_back([rotation = rotations.back()](std::span<const double> y) {
       std::vector<double> image(y.size());
-      Eigen::Map<Eigen::VectorXd>(image.data(), turn.rows()) =
-          turn * Eigen::Map<const Eigen::VectorXd>(y.data(), turn.cols());
+      Eigen::Map<Eigen::VectorXd>(image.data(), rotation.rows()) =
+          rotation * Eigen::Map<const Eigen::VectorXd>(y.data(), rotation.cols());
       return image;
     });
   }
   std::vector<AttractorRecord> records;
   for (const Candidate& c : candidates) records.push_back(record_of(c.states, c.error));
-  const Attractors told = label_attractors(records, {}, maps);
+  const Attractors attractors = label_attractors(records, {}, maps);
 
-  // Of each attractor the first one that it is an image of.
+  // The first attractor that each one is an image of.
   std::map<std::size_t, std::vector<std::size_t>> members;
-  for (std::size_t a = 0; a < told.all.size(); ++a) {
+  for (std::size_t a = 0; a < attractors.all.size(); ++a) {
     std::size_t first = a;
-    while (told.all[first].image_of != 0) first = told.all[first].image_of - 1;
+    while (attractors.all[first].image_of != 0) first = attractors.all[first].image_of - 1;
     auto& of = members[first];
-    of.insert(of.end(), told.all[a].members.begin(), told.all[a].members.end());
+    of.insert(of.end(), attractors.all[a].members.begin(), attractors.all[a].members.end());
   }
 
   std::vector<FoundOrbit> found;
@@ -353,13 +353,14 @@ std::vector<FoundOrbit> told_apart(const OrbitFamily& system, const std::vector<
     for (const std::size_t k : of) f.starts.push_back(candidates[k].start);
     std::sort(f.starts.begin(), f.starts.end());
     f.starts.erase(std::unique(f.starts.begin(), f.starts.end()), f.starts.end());
-    if (!turns.empty()) {
+    if (!rotations.empty()) {
       std::vector<AttractorRecord> images = {record_of(c.states, c.error)};
-      for (const Eigen::MatrixXd& turn : turns) images.push_back(turned(images.front(), turn));
+      for (const Eigen::MatrixXd& rotation : rotations) images.push_back(rotated(images.front(), rotation));
       f.images = static_cast<int>(label_attractors(images).all.size());
-      // A wave that travels is the same orbit turned, begun at another period: its states are not kept.
+      // A travelling disturbance is the same orbit rotated, begun at another period: the symmetry does not keep its
+      // states.
       const AttractorRecord state = record_of(c.states.leftCols(1), c.error);
-      f.family.keeps_symmetry = are_one(state, turned(state, symmetry.map));
+      f.family.keeps_symmetry = are_one(state, rotated(state, symmetry.map));
       if (f.family.keeps_symmetry && !c.family.keeps_symmetry) {
         Correction kept = correct_at(f.family, c.orbit.at.value, c.orbit.at.states);
         if (kept.found) f.orbit = std::move(kept.orbit);
@@ -379,15 +380,15 @@ std::vector<FoundOrbit> told_apart(const OrbitFamily& system, const std::vector<
   return found;
 }
 
-/// All that is known of periods that divide n, begun at each of its periods and turned.
+/// All known orbits whose periods divide n, begun at each of their periods and rotated by the symmetry.
 Deflation known_of(const OrbitFamily& family, const std::vector<FoundOrbit>& found) {
   const CyclicSymmetry& symmetry = family.symmetry;
   std::vector<Eigen::VectorXd> known;
   for (const FoundOrbit& f : found) {
     if (family.period % f.family.period != 0) continue;
     Eigen::MatrixXd states = period_states(f.family, f.orbit.at);
-    const int turns = symmetry.map.size() != 0 && !f.keeps_symmetry() ? symmetry.order : 1;
-    for (int k = 0; k < turns; ++k) {
+    const int rotations = symmetry.map.size() != 0 && !f.keeps_symmetry() ? symmetry.order : 1;
+    for (int k = 0; k < rotations; ++k) {
       if (k > 0) states = symmetry.map * states;
       for (Eigen::Index i = 0; i < states.cols(); ++i) known.emplace_back(states.col(i));
     }
@@ -400,7 +401,7 @@ Deflation known_of(const OrbitFamily& family, const std::vector<FoundOrbit>& fou
 void SearchOptions::validate() const {
   require(smallest_period >= 1, "smallest_period", smallest_period, ">= 1");
   require(largest_period >= smallest_period, "largest_period", largest_period, ">= smallest_period");
-  require(settle >= 0, "settle", settle, ">= 0");
+  require(return_periods >= 0, "settle", return_periods, ">= 0");
   require(returns >= 1, "returns", returns, ">= 1");
   require(rounds >= 0, "rounds", rounds, ">= 0");
   require(iterations >= 1, "iterations", iterations, ">= 1");
@@ -413,7 +414,7 @@ void SearchOptions::validate() const {
 
 std::string to_string(SearchFailure failure) {
   switch (failure) {
-    case SearchFailure::not_carried:
+    case SearchFailure::not_integrated:
       return "not_carried";
     case SearchFailure::no_descent:
       return "no_descent";
@@ -436,47 +437,48 @@ OrbitSearch search_orbits(const OrbitFamily& family, double value, std::span<con
                        std::to_string(dimension));
   if (!starts.empty()) check_neutral(family, value, starts.front());
   const std::size_t count = starts.size();
-  std::vector<Motion> motions(count);
-  for_each_index(count, options.threads,
-                 [&](std::size_t i) { motions[i] = motion_from(family, value, starts[i], options.settle); });
+  std::vector<Trajectory> trajectories(count);
+  for_each_index(count, options.threads, [&](std::size_t i) {
+    trajectories[i] = trajectory_from(family, value, starts[i], options.return_periods);
+  });
 
   OrbitSearch result;
   std::vector<Candidate> candidates;
   for (int n = options.smallest_period; n <= options.largest_period; ++n) {
     const OrbitFamily of_n = of_period(family, n);
     const Eigen::MatrixXd kept = kept_states(of_n, static_cast<Eigen::Index>(dimension));
-    std::vector<Ways> first(count);  // of each start without deflation
+    std::vector<StartRuns> first(count);  // of each start without deflation
     std::vector<bool> led(count, false);
     // Starts as they are, then where they come back, then with what is known taken out.
     for (int round = -1; round <= options.rounds; ++round) {
-      if (round == 0 && options.settle == 0) continue;
+      if (round == 0 && options.return_periods == 0) continue;
       const Deflation deflation = round > 0 ? known_of(of_n, result.orbits) : Deflation(of_n, {});
-      std::vector<Ways> ways(count);
+      std::vector<StartRuns> runs(count);
       for_each_index(count, options.threads, [&](std::size_t i) {
-        std::vector<Eigen::VectorXd> from = {motions[i].states.front()};
+        std::vector<Eigen::VectorXd> from = {trajectories[i].states.front()};
         if (round == 0)
-          from =
-              motions[i].closest_returns(kept, static_cast<std::size_t>(n), static_cast<std::size_t>(options.returns));
+          from = trajectories[i].closest_returns(kept, static_cast<std::size_t>(n),
+                                                 static_cast<std::size_t>(options.returns));
         for (const Eigen::VectorXd& y : from) {
-          Way way = follow(of_n, value, y, deflation, options);
-          ways[i].evaluations += way.evaluations;
-          ways[i].why = way.why;
-          ways[i].message = std::move(way.message);
-          if (!way.orbit) continue;
-          if (std::optional<Candidate> there = candidate(of_n, *way.orbit, options.map_error)) {
+          NewtonRun run = follow(of_n, value, y, deflation, options);
+          runs[i].evaluations += run.evaluations;
+          runs[i].why = run.why;
+          runs[i].message = std::move(run.message);
+          if (!run.orbit) continue;
+          if (std::optional<Candidate> there = candidate(of_n, *run.orbit, options.map_error)) {
             there->start = i;
-            ways[i].led_to.push_back(at_least_period(family, *std::move(there), options.map_error));
+            runs[i].led_to.push_back(at_least_period(family, *std::move(there), options.map_error));
           }
         }
       });
       for (std::size_t i = 0; i < count; ++i) {
-        result.evaluations += ways[i].evaluations;
-        led[i] = led[i] || !ways[i].led_to.empty();
-        std::move(ways[i].led_to.begin(), ways[i].led_to.end(), std::back_inserter(candidates));
-        if (round < 0) first[i] = std::move(ways[i]);
+        result.evaluations += runs[i].evaluations;
+        led[i] = led[i] || !runs[i].led_to.empty();
+        std::move(runs[i].led_to.begin(), runs[i].led_to.end(), std::back_inserter(candidates));
+        if (round < 0) first[i] = std::move(runs[i]);
       }
       const std::size_t before = result.orbits.size();
-      result.orbits = told_apart(family, candidates);
+      result.orbits = distinct_orbits(family, candidates);
       if (round > 0 && result.orbits.size() == before) break;
     }
     for (std::size_t i = 0; i < count; ++i)

@@ -72,7 +72,8 @@ class OrbitSystem {
  public:
   using Evaluate = std::function<OrbitShot(const OrbitPlace&)>;
 
-  /// @param family    the settings of Newton's method, scale of the states, symmetry and pieces; its flows are not used
+  /// @param family    the settings of Newton's method, scale of the states, symmetry and shooting intervals; its flows
+  ///                  are not used
   /// @param scales    of the parameters
   /// @param evaluate  F
   OrbitSystem(const OrbitFamily& family, Eigen::VectorXd scales, Eigen::Index dimension, Evaluate evaluate);
@@ -105,7 +106,8 @@ class OrbitSystem {
 
 [[nodiscard]] bool finite(const OrbitPlace& z);
 
-/// The cubic through two places with their directions, a part x of the way; its parameter is the length along a's.
+/// The cubic through two places with their directions, at the fraction x; its parameter is the length along a's
+/// direction.
 /// @param along_b  <direction of b, direction of a>
 template <class Place>
 [[nodiscard]] Place cubic_between(const Place& a, const Place& slope_of_a, const Place& b, const Place& slope_of_b,

@@ -80,25 +80,25 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
   Eigen::MatrixXd y(static_cast<Eigen::Index>(start.size()), options.shooting_intervals);
   y.col(0) = as_vector(start);
   double best = std::numeric_limits<double>::infinity();
-  // Of the best iteration alone, where it is asked for, and once: its singular values cost more than the step.
-  double told = best;
-  const auto tell_error = [&] {
-    if (told == best) return;
-    told = best;
+  // The error of the best iteration alone, on request, and once: its singular values cost more than the step.
+  double reported = best;
+  const auto report_error = [&] {
+    if (reported == best) return;
+    reported = best;
     orbit.error = orbit_error(orbit.monodromy, std::max(best, options.residual));
   };
   const auto is_known = [&] {
-    tell_error();
+    report_error();
     return std::isfinite(best) && orbit.error <= options.known * as_vector(orbit.state).lpNorm<Eigen::Infinity>();
   };
   const auto not_reached = [&](const integrate::Evolution& e) {
-    tell_error();
+    report_error();
     orbit.outcome = OrbitOutcome::not_reached;
     orbit.message = e.message;
     return orbit;
   };
   if (options.shooting_intervals > 1)
-    if (const integrate::Evolution e = carry_to_intervals(flow, n, y); !e.reached()) return not_reached(e);
+    if (const integrate::Evolution e = integrate_to_intervals(flow, n, y); !e.reached()) return not_reached(e);
   Shot at;
   bool kept = false;
   for (int k = 0; k < options.iterations; ++k) {
@@ -114,7 +114,7 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
       take_state(y, at, orbit);
     }
     if (residual <= options.residual) {
-      tell_error();
+      report_error();
       orbit.outcome = OrbitOutcome::converged;
       return orbit;
     }
@@ -124,7 +124,7 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
       orbit.message = "the residual stays at " + short_text(best);
       return orbit;
     }
-    // Beside a chaotic motion there is no orbit to be found: four iterations that gain nothing are enough.
+    // Beside a chaotic trajectory there may be no orbit: stop after four iterations without progress.
     constexpr int patience = 4;
     constexpr double gain = 0.1;
     if (k + 1 >= patience && best > gain * orbit.residuals.front()) break;
@@ -170,7 +170,7 @@ bool FloquetMultipliers::stable() const {
 
 namespace {
 
-/// M as it was found, piece by piece.
+/// M as it was found, one factor per shooting interval.
 MatrixProduct factors_of(const PeriodicOrbit& orbit) {
   if (!orbit.interval_maps.empty()) return {orbit.interval_maps};
   return orbit.monodromy.size() == 0 ? MatrixProduct{} : MatrixProduct{{orbit.monodromy}};

@@ -2,10 +2,11 @@
 //
 //   F(y) = phi_n(y) - y = 0 ,   y <- y - (M - I)^-1 F(y) ,   M = d phi_n / dy                             [A-orbit]
 //
-// phi_n carries a state over n periods of the forcing. M comes from tangent vectors through the integrator itself, so
-// convergence is quadratic down to the integrator's tolerance. Its eigenvalues are the Floquet multipliers.
+// phi_n integrates a state over n periods of the forcing. M comes from tangent vectors through the integrator itself,
+// so convergence is quadratic down to the integrator's tolerance. Its eigenvalues are the Floquet multipliers.
 //
-// With p pieces (multiple shooting [A-shoot], analysis/shooting.hpp) the states where they begin are sought together,
+// With p shooting intervals (multiple shooting [A-shoot], analysis/shooting.hpp) the states where they begin are sought
+// together,
 //
 //   M_i d_i - d_i+1 = -F_i ,   M = M_p-1 ... M_0
 //
@@ -13,12 +14,12 @@
 //
 //   e = | (M - I)^-1 | rho                                                                          [A-orbit-error]
 //
-// in the largest component. Near a fold, or near a flip for 2 n, M - I is nearly singular, and a small residual alone
-// says little.
+// in the largest component. Near a fold, or for 2 n near a period doubling (flip), M - I is nearly singular, and a
+// small residual alone proves little.
 //
-// Limits: tangents may not grow beyond 1e8 over a piece. A neutral direction of the system (a free rigid rotation)
-// makes M - I singular: the step of least norm is taken, and e leaves it out, since along it neighbours of an orbit are
-// orbits, too. Source: R. Seydel, Practical Bifurcation and Stability Analysis, 3rd ed., ch. 7.
+// Limits: tangents may not grow beyond 1e8 over a shooting interval. A neutral direction of the system (a free rigid
+// rotation) makes M - I singular: the step of least norm is taken, and e leaves it out, since along it neighbours of an
+// orbit are orbits, too. Source: R. Seydel, Practical Bifurcation and Stability Analysis, 3rd ed., ch. 7.
 #pragma once
 
 #include <complex>
@@ -43,10 +44,10 @@ struct OrbitOptions {
 
   /// M is kept for as long as the residual falls to a tenth: near an orbit that saves most of the tangents, which cost
   /// far more than states. The monodromy is then that of a state as far from the orbit as the last full step was long.
-  /// Of one piece only.
+  /// With one shooting interval only.
   bool keep_tangents = false;
 
-  /// @throws InputError for less than one iteration or piece, or a negative residual or error
+  /// @throws InputError for less than one iteration or shooting interval, or a negative residual or error
   void validate() const;
 };
 
@@ -63,10 +64,10 @@ struct PeriodicOrbit {
   OrbitOutcome outcome = OrbitOutcome::not_converged;
   std::vector<double> state;
   Eigen::MatrixXd monodromy;                   ///< M at `state`
-  std::vector<Eigen::MatrixXd> interval_maps;  ///< M_i of the pieces, in the order of s
+  std::vector<Eigen::MatrixXd> interval_maps;  ///< M_i of the shooting intervals, in the order of s
   std::vector<double> residuals;               ///< max |F|, one per iteration
-  double error = 0;                            ///< e, with the least of them, or the one asked for if that is more
-  std::string message;                         ///< empty if converged
+  double error = 0;     ///< e, by the least of the residuals; or the requested error if that is more
+  std::string message;  ///< empty if converged
 
   [[nodiscard]] bool found() const { return outcome == OrbitOutcome::converged || outcome == OrbitOutcome::stalled; }
 };
@@ -77,12 +78,12 @@ struct PeriodicOrbit {
 [[nodiscard]] PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double> start, int n,
                                                 const OrbitOptions& options = {});
 
-/// Of the n points, one a period, of the orbit through `on` the one that is nearest to a state.
+/// The point of the orbit through `on` that is nearest to a state, among its n points, one a period.
 [[nodiscard]] std::vector<double> nearest_on_orbit(integrate::Flow& flow, std::span<const double> on, int n,
                                                    std::span<const double> state);
 
-/// e of [A-orbit-error]. Singular values of M - I below 1e-8 are those of neutral directions: errors of tangents could
-/// not tell them from 0.
+/// e of [A-orbit-error]. Singular values of M - I below 1e-8 count as those of neutral directions: errors of tangents
+/// are as large.
 /// @param monodromy  M at the state
 [[nodiscard]] double orbit_error(const Eigen::MatrixXd& monodromy, double residual);
 
@@ -94,7 +95,7 @@ struct FloquetMultipliers {
   std::vector<std::complex<double>> values;
   std::vector<double> errors;     ///< distance from the nearest one of a second estimate, or what rounding leaves if
                                   ///< that is more [A-schur]; one each
-  std::vector<int> multiplicity;  ///< of each: those that its error cannot tell from it, itself included
+  std::vector<int> multiplicity;  ///< of each: the number of multipliers within its error, itself included
   std::size_t critical = 0;       ///< the one nearest to the unit circle
 
   /// Is its error less than its distance from the unit circle?

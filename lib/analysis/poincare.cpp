@@ -25,7 +25,8 @@ RecordingPhases::RecordingPhases(const VectorField& field, int count, int refine
   for (std::size_t j = 0; j < uniform.size(); ++j) {
     const double before = j == 0 ? 0.0 : uniform[j - 1];
     for (int k = 1; k < refinement; ++k)
-      all.emplace_back(before + (uniform[j] - before) * k / refinement, k % 2 == 1 ? SampleKind::odd : SampleKind::even);
+      all.emplace_back(before + (uniform[j] - before) * k / refinement,
+                       k % 2 == 1 ? SampleKind::odd : SampleKind::even);
     all.emplace_back(uniform[j], SampleKind::uniform);
   }
   for (const double b : field.breakpoints) {
@@ -52,7 +53,7 @@ StrobeProgress::StrobeProgress(std::size_t dimension, const StrobeOptions& optio
     : options_(options), last_(options.transient_periods + options.recorded_periods), samples_(std::move(samples)) {
   options.validate();
   see_ = [this, observer](std::size_t j, double s, std::span<const double> y) {
-    const auto recorded = static_cast<std::size_t>(carried_ - options_.transient_periods);
+    const auto recorded = static_cast<std::size_t>(advanced_ - options_.transient_periods);
     observer(recorded * samples_.size() + j, s, y);
   };
   strobe_.section.dimension = dimension;
@@ -60,19 +61,20 @@ StrobeProgress::StrobeProgress(std::size_t dimension, const StrobeOptions& optio
 }
 
 std::span<const double> StrobeProgress::samples() const {
-  if (carried_ < options_.transient_periods) return {};
+  if (advanced_ < options_.transient_periods) return {};
   return samples_;
 }
 
 void StrobeProgress::take(const integrate::Evolution& evolution, std::span<const double> state) {
   strobe_.evolution = evolution;
   if (!evolution.reached()) return;
-  if (carried_ >= options_.transient_periods)
+  if (advanced_ >= options_.transient_periods)
     strobe_.section.states.insert(strobe_.section.states.end(), state.begin(), state.end());
-  ++carried_;
+  ++advanced_;
 }
 
-void carry(integrate::Flow& flow, std::span<double> state, StrobeProgress& strobe, const std::function<bool()>& go_on) {
+void advance_strobe(integrate::Flow& flow, std::span<double> state, StrobeProgress& strobe,
+                    const std::function<bool()>& go_on) {
   while (!strobe.over() && go_on()) {
     const integrate::Evolution e = flow.evolve(state, 0.0, flow.field().period, strobe.samples(), strobe.observer());
     strobe.take(e, state);
@@ -83,7 +85,7 @@ Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOption
               const integrate::Observer& observer, const std::function<bool()>& go_on) {
   StrobeProgress progress(flow.field().dimension, options, uniform_phases(period_of(flow.field()), options.phases),
                           observer);
-  carry(flow, state, progress, go_on);
+  advance_strobe(flow, state, progress, go_on);
   return std::move(progress.result());
 }
 
@@ -97,7 +99,7 @@ SurfaceSection surface_section(integrate::Flow& flow, std::span<double> state,
   struct Sample {
     double s = 0;
     std::vector<double> y;
-    double side = 0;  ///< h, its sign turned so that crossings rise
+    double side = 0;  ///< h, with the sign for which the crossings rise
   };
   const double sign = direction == SectionCrossing::rising ? 1.0 : -1.0;
   const auto sample = [&](double s, std::span<const double> y) {
@@ -204,7 +206,7 @@ double extent(const PoincareSection& section) {
 
 bool still_converging(const Recurrence& r, double tolerance) {
   constexpr double small = 100.0;  // an error beyond this many tolerances is not the tail of a transient
-  constexpr double falling = 0.8;  // chaos and quasiperiodic motion have the same error early and late
+  constexpr double falling = 0.8;  // chaotic and quasiperiodic trajectories have the same error early and late
   return r.period == 0 && r.error <= small * tolerance && r.late_error <= falling * r.error;
 }
 

@@ -1,18 +1,18 @@
-// Stroboscopic Poincare section of a periodically forced flow, and the period of the motion by recurrence.
+// Stroboscopic Poincare section of a periodically forced flow, and the period of the response by recurrence.
 //
 //   y_k = phi(s_0 -> s_0 + k T)(y_0) ,  T the period of the forcing
 //   r_n = max_k max_j | y_{k+n,j} - y_{k,j} |  over the whole record
 //   period n:  the least n with  r_n <= epsilon  and  r_n <= r_m / 10 for each m < n                         [A-rec]
 //
-// The second condition keeps a motion that still creeps towards a short period from being called one of a long period,
-// because a slow beat of the creep happens to bring it back within epsilon.
+// The second condition is for slow transients towards a short period. A slow beat of the transient may bring the state
+// back within epsilon after a long period. Such a response does not count as one of the long period.
 //
 // A section by a surface h(s, y) = 0 takes the states where h changes sign in one direction. They are bracketed by the
 // dense output and located along evolutions of the flow itself, from the sample before them.
 //
-// Limits: two crossings between neighbouring samples are missed; recurrence can prove that a motion repeats to within
-// epsilon over the record, nothing else. A motion that does not repeat may be chaotic, quasiperiodic, of a longer
-// period, or still settling. Smoothness: none needed; the section is stepped onto, not interpolated.
+// Limits: two crossings between neighbouring samples are missed; recurrence can prove that a response repeats to within
+// epsilon over the record, nothing else. A response that does not repeat may be chaotic, quasiperiodic, of a longer
+// period, or still transient. Smoothness: none needed; the section is stepped onto, not interpolated.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +38,7 @@ struct PoincareSection {
   }
 };
 
-/// Uniform values of s over one period, its end included and its beginning not: where the dense output is looked at.
+/// Uniform values of s over one period for the dense output. The end of the period is included, its beginning is not.
 [[nodiscard]] std::vector<double> uniform_phases(double period, int count);
 
 /// What a sample of a response is for: all samples count for extrema, means are taken over the uniform ones alone.
@@ -77,8 +77,8 @@ struct Strobe {
   PoincareSection section;         ///< after each recorded period
 };
 
-/// A strobe period by period, for whoever carries several motions at once: evolve the state from 0 over the period with
-/// samples() and observer(), take() what came of it, until it is over.
+/// A strobe period by period, for callers that integrate several trajectories at once. Evolve the state from 0 over the
+/// period with samples() and observer(), and pass the result to take(), until it is over.
 class StrobeProgress {
  public:
   /// @param dimension  of the state
@@ -90,8 +90,8 @@ class StrobeProgress {
   StrobeProgress(const StrobeProgress&) = delete;  // its observer knows where it is
   StrobeProgress& operator=(const StrobeProgress&) = delete;
 
-  /// All periods are carried, or an evolution failed.
-  [[nodiscard]] bool over() const { return !strobe_.evolution.reached() || carried_ == last_; }
+  /// All periods are integrated, or an evolution failed.
+  [[nodiscard]] bool over() const { return !strobe_.evolution.reached() || advanced_ == last_; }
   /// Of the next period; empty in the transient.
   [[nodiscard]] std::span<const double> samples() const;
   [[nodiscard]] const integrate::Observer& observer() const { return see_; }
@@ -101,23 +101,24 @@ class StrobeProgress {
 
  private:
   StrobeOptions options_;
-  int carried_ = 0;  ///< periods
+  int advanced_ = 0;  ///< periods
   int last_ = 0;
   std::vector<double> samples_;
   integrate::Observer see_;
   Strobe strobe_;
 };
 
-/// Carries a strobe to its end by one flow.
-/// @param go_on  asked before each period; false leaves it where it is
-void carry(integrate::Flow& flow, std::span<double> state, StrobeProgress& strobe, const std::function<bool()>& go_on);
+/// Integrates a strobe to its end by one flow.
+/// @param go_on  called before each period; false ends the strobe there
+void advance_strobe(integrate::Flow& flow, std::span<double> state, StrobeProgress& strobe,
+                    const std::function<bool()>& go_on);
 
-/// Carries `state` over the transient, then records.
+/// Integrates `state` over the transient, then records.
 ///
 /// @param state     replaced by the last state
 /// @param observer  sees each recorded period at phases j T / phases, j = 1 .. phases (index counts on over the
 /// periods)
-/// @param go_on     asked before each period; false ends the strobe at once with what is there (outcome reached)
+/// @param go_on     called before each period; false ends the strobe at once with what is there (outcome reached)
 /// @throws InputError for options out of range
 [[nodiscard]] Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOptions& options,
                             const integrate::Observer& observer, const std::function<bool()>& go_on);
@@ -131,7 +132,7 @@ struct SurfaceSection {
   std::vector<double> phase;  ///< s of each, in [0, T)
 };
 
-/// @param state    carried on, replaced by the last state; its path does not depend on the crossings
+/// @param state    initial state, replaced by the last state; its path does not depend on the crossings
 /// @param surface  h
 /// @param phases   samples per period that bracket crossings
 [[nodiscard]] SurfaceSection surface_section(integrate::Flow& flow, std::span<double> state,
@@ -140,10 +141,10 @@ struct SurfaceSection {
                                              const std::function<bool()>& go_on);
 
 struct Recurrence {
-  int period = 0;         ///< n of [A-rec]; 0 if none up to the longest asked for
+  int period = 0;         ///< n of [A-rec]; 0 if there is none up to the longest period
   double error = 0;       ///< r_n at that n; the least r_n over all n tried if none recurs
   int best_period = 0;    ///< the n of that error
-  double late_error = 0;  ///< the same over the second half of the record: smaller while the motion still settles
+  double late_error = 0;  ///< the same over the second half of the record: smaller during the transient
 };
 
 /// r_n of [A-rec].
@@ -166,11 +167,11 @@ struct Recurrence {
 /// The largest range of a component.
 [[nodiscard]] double extent(const PoincareSection& section);
 
-/// Whether a motion without a period was still on its way to one: a small error that falls along the record.
+/// Was a response without a period still converging to one? Its error is small and falls along the record.
 /// @param tolerance  epsilon of recurrence()
 [[nodiscard]] bool still_converging(const Recurrence& r, double tolerance);
 
-/// @param longest    largest n looked for; at most half the record, so that each point is compared at least once
+/// @param longest    largest n of the search; at most half the record, so that each point is compared at least once
 /// @param tolerance  epsilon, in the units of the state
 [[nodiscard]] Recurrence recurrence(const PoincareSection& section, int longest, double tolerance);
 

@@ -22,21 +22,22 @@ namespace epicyclic::analysis {
 namespace {
 
 constexpr int least_window = 16;
-/// Periods that an exponent's interval needs; the 0-1 test needs twice as many, and takes the look before along.
+/// Periods that an exponent's interval needs. The 0-1 test needs twice as many and uses the window before as well.
 constexpr int growth_window = 128;
-/// A recurrence error up to this part of the extent is that of a motion all but on its orbit.
-constexpr double settled = 0.01;
-/// Periods whose recurrence errors are this near recur alike: the shortest is sought.
+/// A recurrence error up to this part of the extent counts as that of a trajectory almost on its orbit.
+constexpr double converged = 0.01;
+/// Periods whose recurrence errors differ by less than this factor recur equally well: the shortest is tested.
 constexpr double alike = 10.0;
-/// A found orbit's residual is at most this part of the motion's own recurrence error, or so many times what was asked:
-/// kinks make an integrator's map rough.
+/// The residual of an orbit is at most this part of the trajectory's own recurrence error, or this multiple of the
+/// requested residual. Kinks make the map of an integrator rough.
 constexpr double least_gain = 0.1;
 constexpr double rough_map = 30.0;
-/// With a multiplier's error above this part of its distance from 1, tangents of the orbit's own are worth their price.
+/// If a multiplier's error is above this part of its distance from 1, the orbit's own tangents are computed.
 constexpr double own_tangents = 0.1;
-/// An orbit that was sought in vain is sought again when the motion has come nearer to it by this factor.
+/// A failed search for an orbit is repeated when the recurrence error has fallen by this factor.
 constexpr double nearer = 0.5;
-/// Looked at for each period of an orbit that is sought: all attempts together then cost about as much as the looks.
+/// Periods of windows for each period of an orbit that is searched: all searches together then cost about as much as
+/// the windows.
 constexpr int periods_per_orbit = 256;
 /// Of the largest component, off something that repels: no attractor's basin is as narrow, and growth by e^7 shows it.
 constexpr double push = 1e-3;
@@ -44,21 +45,21 @@ constexpr double push = 1e-3;
 constexpr double even_part = 0.1;
 /// Growth is slow if it is less than this in as many periods as the 0-1 test needs.
 constexpr double slow_growth = 4.0 * neutral_growth;
-/// Periods over which e^2 is told from a small exponent.
+/// Periods over which a growth of e^2 differs from a small exponent.
 constexpr int torus_window = 1024;
-/// Periods of looks at one tolerance before a tighter one is asked, where vectors do not grow.
-constexpr int look_at_one_tolerance = 1024;
+/// Periods at one tolerance without growth of vectors, before a tighter tolerance is requested.
+constexpr int periods_at_one_tolerance = 1024;
 /// Periods from which on growth and the 0-1 test contradict each other: over fewer the test abstains or errs.
 constexpr std::size_t contradiction_window = 512;
-/// No flow tells more of an orbit than this, in parts of its largest component.
+/// No flow resolves an orbit better than this, in parts of its largest component.
 constexpr double least_residual = 1e-9;
-/// A return error that falls by this factor from each quarter of a look to the next is that of a motion that settles.
+/// A trajectory is a transient if its return error falls by this factor from each quarter of a window to the next.
 constexpr double falling = 0.75;
-/// A torus is turned along at no point of it slower than this part of the fastest.
-constexpr double least_turning = 0.01;
-/// A motion is as near to an orbit as it was to within a hundredth: the slowest multipliers move it by less.
+/// The rotation along a torus is nowhere slower than this part of the fastest.
+constexpr double least_rotation_rate = 0.01;
+/// Within this factor two distances from an orbit count as equal: the slowest multipliers change the distance by less.
 constexpr double as_near = 1.01;
-/// Returns over which a motion is followed until it is, and over which its monodromy is asked where it leads.
+/// Returns over which a trajectory is followed until it is as near again, and over which its monodromy predicts it.
 constexpr int most_returns = 16;
 constexpr int foreseen_returns = 256;
 
@@ -90,15 +91,16 @@ class Classifier {
     if (before != nullptr && before->size() > 0) {
       section_ = *before;
       for (std::size_t k = 0; k < section_.size(); ++k) series_.push_back(section_.point(k)[options_.observable]);
-      look_before_ = 0;
+      previous_window_ = 0;
       first_ = static_cast<int>(section_.size());
       find_recurrence();
-      // What does not nearly recur is most likely chaotic, which growth tells for less than Newton's method fails.
-      if (is_periodic(settled)) return std::move(result_);
-      // As long a look as growth can be told from.
+      // A trajectory without near recurrence is most likely chaotic. Growth shows that at a lower cost than a failure
+      // of Newton's method.
+      if (is_periodic(converged)) return std::move(result_);
+      // As long a window as the test of growth needs.
       first = std::max(first, growth_window);
     } else {
-      look_tightly();
+      use_tight_tolerance();
     }
     for (int window = first;;) {
       window = std::min(window, options_.budget - seen.periods);
@@ -106,13 +108,14 @@ class Classifier {
       const std::vector<double> start(state_.begin(), state_.end());
       if (!record(window)) return std::move(result_);
       contradicts_ = false;
-      if (!grows() && look_tightly()) {
-        // What does not grow remembers where it began, and a loose look may have led it to another attractor.
+      if (!grows() && use_tight_tolerance()) {
+        // A trajectory without growth depends on its initial state. A window at the loose tolerance may have led it to
+        // another attractor.
         std::copy(start.begin(), start.end(), state_.begin());
         continue;
       }
-      // A long look may have ended on an orbit that it began far from.
-      if (is_periodic(settled)) return std::move(result_);
+      // A long window may end on an orbit that it began far from.
+      if (is_periodic(converged)) return std::move(result_);
       if (is_chaotic()) {
         if (outlasts()) return std::move(result_);
       } else if (is_periodic(options_.near)) {
@@ -122,14 +125,14 @@ class Classifier {
       if (is_torus()) return std::move(result_);
       leave_what_repels();
       if (contradicts_ && growth_.size() >= contradiction_window && grows_weakly()) {
-        look_tightly();
+        use_tight_tolerance();
         returned_ = true;
       } else if (seen.late_growth > 4.0 * neutral_growth) {
-        look_loosely();
+        use_loose_tolerance();
       }
-      if ((contradicts_ || !grows()) && level_periods_ >= look_at_one_tolerance) tighten();
+      if ((contradicts_ || !grows()) && level_periods_ >= periods_at_one_tolerance) tighten();
       window *= 2;
-      // Where vectors neither grow nor shrink, no look tells anything that is not long.
+      // If vectors neither grow nor shrink, only a long window decides.
       if (std::abs(seen.late_growth) <= neutral_growth && growth_.size() >= growth_window)
         window = std::max(window, torus_window - static_cast<int>(growth_.size()));
     }
@@ -143,25 +146,25 @@ class Classifier {
   }
 
  private:
-  /// Did tangent vectors grow over the last look? Then where a motion goes is a matter of chance in the end, and a
-  /// looser tolerance is as good.
+  /// Did tangent vectors grow over the last window? Then the trajectory is a matter of chance in the end, and a looser
+  /// tolerance is as good.
   [[nodiscard]] bool grows() const { return result_.evidence.late_growth > neutral_growth; }
 
-  /// Looks are at the tolerance of orbits from here on.
-  /// @returns false if they are already
-  bool look_tightly() {
+  /// Windows use the tolerance of orbits from here on.
+  /// @returns false if they already do
+  bool use_tight_tolerance() {
     if (flow_ == tight_) return false;
     flow_ = tight_;
-    forget_looks();
+    forget_windows();
     return true;
   }
 
-  /// Looks of a motion that grows are at the looser tolerance, once: what returns from there stays at the tighter one.
-  void look_loosely() {
+  /// Windows with growth use the looser tolerance, once. After a return from there they keep the tighter one.
+  void use_loose_tolerance() {
     if (flow_ == loose_ || returned_) return;
     returned_ = true;
     flow_ = loose_;
-    forget_looks();
+    forget_windows();
   }
 
   /// The next tighter tolerance for all, if there is one.
@@ -180,22 +183,22 @@ class Classifier {
     level_periods_ = 0;
   }
 
-  /// Growth and section of another flow are none of this one.
-  void forget_looks() {
+  /// Growth and section of another flow do not count for this one.
+  void forget_windows() {
     growth_.clear();
     series_.clear();
-    look_before_ = 0;
+    previous_window_ = 0;
     level_periods_ = 0;
     if (left_at_) left_at_ = 0;
   }
 
-  /// One look: the state, a tangent vector and the section.
+  /// One window: the state, a tangent vector and the section.
   bool record(int periods) {
     section_ = {};
     section_.dimension = state_.size();
-    // The look before goes along: it is of the same motion.
-    series_.erase(series_.begin(), series_.begin() + static_cast<std::ptrdiff_t>(look_before_));
-    look_before_ = series_.size();
+    // The series keeps the window before: it is of the same trajectory.
+    series_.erase(series_.begin(), series_.begin() + static_cast<std::ptrdiff_t>(previous_window_));
+    previous_window_ = series_.size();
     if (flow_ == exact_) flow_->forget();  // orbits have been sought with it since
     result_.evidence.note.clear();
     LyapunovOptions options;
@@ -215,8 +218,8 @@ class Classifier {
     result_.evidence.late_growth = late_growth(e.growth);
     direction_ = std::move(e.direction);
     if (!result_.evolution.reached() || e.growth.size() < static_cast<std::size_t>(periods)) return false;
-    whole_look_ = section_;
-    // Orbits are told from where the motion is now, not from where a long look began.
+    whole_window_ = section_;
+    // Orbits are tested at the current state of the trajectory, not at the beginning of a long window.
     section_.keep_last(growth_window);
     find_recurrence();
     return true;
@@ -242,25 +245,26 @@ class Classifier {
       while (n < r.best_period && recurrence_error(section_, static_cast<std::size_t>(n)) > error) ++n;
       return n;
     };
-    if (r.period > 0) return settles_to_orbit_of(r.period);
-    // None is sought that costs more than the looks so far, unless the motion is all but on it. Beside a torus many
-    // long ones nearly close, and the short one in its middle is no candidate twice.
+    if (r.period > 0) return converges_to_orbit_of(r.period);
+    // No search may cost more than the windows so far, unless the trajectory is almost on the orbit. Beside a torus
+    // many long periods nearly close, and the short period in its middle is no candidate twice.
     const int affordable = std::max(1, (first_ + result_.evidence.periods) / periods_per_orbit);
     const int n = shortest(alike * r.error);
-    if (r.error <= settled * wide) {
-      const int closed = shortest(settled * wide);
+    if (r.error <= converged * wide) {
+      const int closed = shortest(converged * wide);
       const int early = shortest(options_.near * wide);
-      if ((early < closed && early <= affordable && settles_to_orbit_of(early)) || settles_to_orbit_of(closed) ||
-          (n > closed && settles_to_orbit_of(n)))
+      if ((early < closed && early <= affordable && converges_to_orbit_of(early)) || converges_to_orbit_of(closed) ||
+          (n > closed && converges_to_orbit_of(n)))
         return true;
-      // About an orbit that is next to a flip the motion comes and goes: it recurs after twice the orbit's period.
+      // About an orbit next to a period doubling (flip) the distance oscillates: the trajectory recurs after twice the
+      // orbit's period.
       for (int d = n / 2; d >= 1; --d)
-        if (n % d == 0 && settles_to_orbit_of(d)) return true;
+        if (n % d == 0 && converges_to_orbit_of(d)) return true;
       return false;
     }
     // Shorter ones come first: an orbit of period 1 recurs after 2.
     for (int d = 1; d <= std::min(n, affordable); ++d)
-      if (n % d == 0 && settles_to_orbit_of(d)) return true;
+      if (n % d == 0 && converges_to_orbit_of(d)) return true;
     return false;
   }
 
@@ -280,11 +284,11 @@ class Classifier {
     bool own_tangents = false;  ///< the orbit's monodromy is that of its state
   };
 
-  /// An orbit of period n near the motion's last point, with its error [A-orbit-error].
-  /// @param distance_now  the motion's recurrence error after n periods
+  /// An orbit of period n near the trajectory's last point, with its error [A-orbit-error].
+  /// @param distance_now  the trajectory's recurrence error after n periods
   std::optional<KnownOrbit> seek(std::span<const double> last, int n, double distance_now) {
     integrate::Flow& exact = *exact_;
-    // n + 1 pieces end within periods: other steps of the integrator all along.
+    // n + 1 shooting intervals end within periods, so that all steps of the integrator differ.
     integrate::Flow& other = *coarser_;
     const int shooting_intervals = coarser_ == exact_ ? n + 1 : 1;
     const auto tangents_of_others = [&](const PeriodicOrbit& orbit) {
@@ -301,7 +305,7 @@ class Classifier {
     o.iterations = 6;  // what attracts is near and found in three
     KnownOrbit known;
     known.orbit = find_periodic_orbit(exact, last, n, o);
-    // On a torus, too, the motion comes back after n periods, and Newton's method gains nothing on that.
+    // A trajectory on a torus also returns after n periods. There Newton's method does not reduce the residual.
     const double rough = rough_map * o.residual;
     if (known.orbit.outcome == OrbitOutcome::not_reached ||
         residual(known.orbit) > std::min(std::sqrt(o.residual), std::max(least_gain * distance_now, rough)))
@@ -310,7 +314,7 @@ class Classifier {
     if (known.second.interval_maps.empty()) return std::nullopt;
     known.orbit.error = orbit_error(known.second.monodromy, std::max(residual(known.orbit), o.residual));
     if (known.orbit.error <= noise()) return known;
-    // Near a fold, or a flip of a part of n: the residual says little, and kept tangents lead nowhere.
+    // Near a fold, or a period doubling (flip) of a part of n: the residual proves little, and kept tangents fail.
     o.keep_tangents = false;
     o.iterations = 24;
     known.orbit = find_periodic_orbit(exact, known.orbit.state, n, o);
@@ -324,7 +328,7 @@ class Classifier {
     return known;
   }
 
-  bool settles_to_orbit_of(int n) {
+  bool converges_to_orbit_of(int n) {
     Evidence& seen = result_.evidence;
     attracted_ = false;
     const auto vain = in_vain_.try_emplace(n, std::numeric_limits<double>::infinity()).first;
@@ -339,12 +343,12 @@ class Classifier {
       return false;
     }
     PeriodicOrbit& orbit = known->orbit;
-    // Where the motion is to within what is known of the orbit nothing tells it from the orbit, nor from what branches
-    // off it close by.
+    // The trajectory may be within the error of the orbit. Then it cannot be distinguished from the orbit, nor from
+    // orbits that branch off close by.
     const bool indistinct = largest_difference(last, orbit.state) <= closed_to(orbit);
     if (!indistinct) indistinct_.erase(n);
     if (const int least = least_period(exact, orbit, n); least < n) {
-      if (settles_to_orbit_of(least)) return true;
+      if (converges_to_orbit_of(least)) return true;
       if (std::isfinite(in_vain_[least])) vain->second = distance_now;
       if (indistinct) indistinct_.insert(n);
       return false;
@@ -366,7 +370,7 @@ class Classifier {
       seen.note = "not yet drawn to the " + name + " that is " + distance + " away";
       return false;
     }
-    tell_periodic(std::move(orbit), n, multiplier, error);
+    set_periodic(std::move(orbit), n, multiplier, error);
     seen.note = "drawn to the " + name + " from " + distance + " away";
     return true;
   }
@@ -377,7 +381,7 @@ class Classifier {
     return std::max(noise(), safety * orbit.error);
   }
 
-  /// Modulus of an orbit's largest multiplier and its error; the orbit is told with tangents of its own if need be.
+  /// Modulus of an orbit's largest multiplier and its error, if necessary with tangents of the orbit's own.
   std::pair<double, double> largest_multiplier_of(KnownOrbit& known, integrate::Flow& exact, int n) const {
     const auto multipliers = [&] {
       const FloquetMultipliers m = floquet_multipliers(known.orbit, known.second);
@@ -391,14 +395,14 @@ class Classifier {
     return multipliers();
   }
 
-  /// [A-settled]
+  /// [A-approach]
   struct Approach {
-    double distance = 0;  ///< of the motion from the orbit
+    double distance = 0;  ///< of the trajectory from the orbit
     bool drawn = false;
   };
 
-  /// By the flow that the orbit belongs to: looks may be rougher.
-  /// @returns nothing if it did not carry the motion on
+  /// Uses the flow that the orbit belongs to: the flow of windows may be rougher.
+  /// @returns nothing if the integration failed
   std::optional<Approach> approach_to(const PeriodicOrbit& orbit, integrate::Flow& exact, std::span<const double> last,
                                       int n) const {
     const auto size = static_cast<Eigen::Index>(last.size());
@@ -409,7 +413,7 @@ class Classifier {
     const double distance = from.lpNorm<Eigen::Infinity>();
     double farthest = distance;
     exact.forget();
-    for (int turn = 0; turn < most_returns; ++turn) {
+    for (int return_count = 0; return_count < most_returns; ++return_count) {
       for (int k = 0; k < n; ++k)
         if (!exact.evolve(state, 0.0, exact.field().period).reached()) return std::nullopt;
       const Eigen::VectorXd to = now - on_orbit;
@@ -418,7 +422,7 @@ class Classifier {
       from = to;
       const double away = from.lpNorm<Eigen::Infinity>();
       farthest = std::max(farthest, away);
-      const bool followed = away <= std::max(as_near * distance, noise()) || turn + 1 == most_returns;
+      const bool followed = away <= std::max(as_near * distance, noise()) || return_count + 1 == most_returns;
       if (followed && stays_within(2.0 * std::max(farthest, noise()), orbit.monodromy, from))
         return Approach{distance, true};
     }
@@ -434,7 +438,7 @@ class Classifier {
     return true;
   }
 
-  void tell_periodic(PeriodicOrbit orbit, int n, double multiplier, double error) {
+  void set_periodic(PeriodicOrbit orbit, int n, double multiplier, double error) {
     Evidence& seen = result_.evidence;
     result_.regime = Regime::periodic;
     result_.period = n;
@@ -442,7 +446,7 @@ class Classifier {
     seen.orbit_error = orbit.error;
     seen.largest_multiplier = multiplier;
     seen.multiplier_error = error;
-    // Of a multiplier that is nothing but error, the logarithm says no more than that.
+    // The error of the logarithm stays finite, even if the multiplier is smaller than its error.
     const double time = n * flow_->field().period;
     seen.exponent = {std::log(multiplier) / time, std::log1p(error / multiplier) / time};
     seen.zero_one.reset();
@@ -461,7 +465,7 @@ class Classifier {
       if (n % d != 0) continue;
       const double open = largest_difference(y, orbit.state);
       if (open <= closed) return d;
-      if (open <= settled * scale_) nearly.push_back(d);
+      if (open <= converged * scale_) nearly.push_back(d);
     }
     for (const int d : nearly) {
       const PeriodicOrbit shorter = find_periodic_orbit(flow, orbit.state, d, {.residual = map_residual()});
@@ -486,7 +490,7 @@ class Classifier {
     if (!(seen.exponent.low() > 0.0 && seen.late_growth > neutral_growth)) return false;
     const double k = *(seen.zero_one = vote(*seen.zero_one));
     if (!left_at_ && grows_evenly()) return false;
-    // On its way off, which e^7 and more lead out of a push of 1e-3, it spirals: to the 0-1 test that is chaos.
+    // After a push of 1e-3 a trajectory spirals away over a growth of e^7 and more. To the 0-1 test that is chaos.
     if (left_at_ && growth_since_left() < -std::log(push) + 4.0 * neutral_growth) return false;
     if (k > chaotic_vote) return true;
     if (k > regular_vote) return late_growth(growth_) > 4.0 * neutral_growth;
@@ -496,10 +500,10 @@ class Classifier {
     return false;
   }
 
-  /// The 0-1 test of a motion whose vectors grow. In chaos of several bands, which the motion goes through in turn, the
-  /// turn drowns what is irregular: where the section all but recurs after n periods each n-th point is taken about
-  /// their own mean, too.
-  /// @param plain  the test without that
+  /// The 0-1 test of a trajectory whose vectors grow. In chaos of several bands that the trajectory visits in sequence,
+  /// the sequence hides the irregular part. If the section nearly recurs after n periods, the mean of each n-th point
+  /// is subtracted, too.
+  /// @param plain  the result of the test without that
   [[nodiscard]] double vote(double plain) const {
     const Recurrence& r = result_.evidence.recurrence;
     if (plain > chaotic_vote || r.best_period < 2 || !(r.error <= near_enough(options_.near))) return plain;
@@ -517,8 +521,8 @@ class Classifier {
     return std::max(plain, zero_one_test(about, noise()));
   }
 
-  /// Whether vectors grow as they do beside something that repels: slowly, and by the same factor all the time. What
-  /// settles to it meanwhile the 0-1 test takes for chaos.
+  /// Do vectors grow as they do beside a repelling set: slowly, and by the same factor all the time? The 0-1 test takes
+  /// a transient to such a set for chaos.
   [[nodiscard]] bool grows_evenly() const {
     const auto& e = result_.evidence.exponent;
     return e.half_width < even_part * e.value && e.value * flow_->field().period * 2 * growth_window < slow_growth;
@@ -528,16 +532,16 @@ class Classifier {
     return std::accumulate(growth_.begin() + static_cast<std::ptrdiff_t>(*left_at_), growth_.end(), 0.0);
   }
 
-  /// Whether what looks chaotic lasts: carries the motion on, without tangents if the 0-1 test is sure; for the whole
-  /// budget if an orbit attracts near by, which the motion may come to yet.
-  /// @returns true if the regime is told or the motion ended
+  /// Does apparent chaos last? Integrates on, without tangents if the 0-1 test is sure. If an orbit attracts near by,
+  /// it integrates for the whole budget, since the trajectory may still reach the orbit.
+  /// @returns true if the regime is known or the integration ended
   bool outlasts() {
     Evidence& seen = result_.evidence;
     const auto lasted = [&] { return first_ + seen.periods; };
     const int lasting = std::min(options_.lasting, options_.budget);
     const auto last_until = [&](int end) {
       while (lasted() < end)
-        if (!carry_on(std::min(lasted(), end - lasted())) || is_periodic(settled)) return false;
+        if (!advance(std::min(lasted(), end - lasted())) || is_periodic(converged)) return false;
       return true;
     };
     std::string beside;
@@ -551,14 +555,15 @@ class Classifier {
       }
       seen.zero_one = vote(zero_one_test(series_, noise()));
       if (*seen.zero_one <= chaotic_vote) {
-        // Another motion than the one whose growth is known.
+        // The growth belongs to another response than this one.
         growth_.clear();
         if (left_at_) left_at_ = 0;
         return false;
       }
     }
-    // Errors of loose looks keep a motion off an orbit that attracts from near by alone, where growth is weak.
-    if (grows_weakly() && look_tightly()) {
+    // Errors of a loose tolerance can keep a trajectory off an orbit that attracts from near by alone, if growth is
+    // weak.
+    if (grows_weakly() && use_tight_tolerance()) {
       returned_ = true;
       const int until = lasted() + lasting;
       if (!last_until(until - growth_window) || !last_until(until)) return true;
@@ -586,15 +591,15 @@ class Classifier {
     return e.growth.size() == growth_window && std::accumulate(e.growth.begin(), e.growth.end(), 0.0) > neutral_growth;
   }
 
-  /// A state that the motion all but comes back to after n periods, without having grown apart meanwhile.
+  /// A state that the trajectory nearly returns to after n periods, without growth of vectors in between.
   struct Return {
     std::vector<double> state;
     int n = 0;
     double distance = 0;
   };
 
-  /// The closest for each n in the last look, the closest ones first. Near an orbit that attracts vectors shrink, and
-  /// what leads to one passes by.
+  /// The closest for each n in the last window, the closest ones first. Near an orbit that attracts vectors shrink, and
+  /// a trajectory that approaches one passes by.
   [[nodiscard]] std::vector<Return> close_returns() const {
     std::vector<Return> all;
     const std::size_t points = std::min(section_.size(), growth_.size());
@@ -622,7 +627,7 @@ class Classifier {
     return all;
   }
 
-  /// Newton's method from these, for as much as a quarter of what the motion has cost.
+  /// Newton's method from these, at a cost of at most a quarter of that of the trajectory.
   /// @returns n of an orbit that attracts; 0 if none is found
   int attracting_period(std::span<const Return> returns) {
     constexpr double part = 0.25;
@@ -632,7 +637,7 @@ class Classifier {
     int found = 0;
     for (const Return& r : returns) {
       OrbitOptions o;
-      o.residual = 1e2 * map_residual();  // looks are rougher than what orbits are sought with
+      o.residual = 1e2 * map_residual();  // windows are rougher than the search for orbits
       o.iterations = 1;
       left -= r.n;
       if (left < 0.0) break;
@@ -653,8 +658,8 @@ class Classifier {
   }
 
   /// A stretch without tangents; the section and the series are those of its end.
-  /// @returns false if the motion ended
-  bool carry_on(int periods) {
+  /// @returns false if the integration ended early
+  bool advance(int periods) {
     StrobeOptions o;
     o.recorded_periods = std::min(periods, growth_window);
     o.transient_periods = periods - o.recorded_periods;
@@ -666,15 +671,16 @@ class Classifier {
     result_.evidence.periods += periods;
     for (std::size_t k = 0; k < s.section.size(); ++k) series_.push_back(s.section.point(k)[options_.observable]);
     const auto most = 2 * static_cast<std::ptrdiff_t>(growth_window);
-    if (std::ssize(series_) > most) series_.erase(series_.begin(), series_.end() - most);  // as before a look
-    look_before_ = 0;
+    if (std::ssize(series_) > most) series_.erase(series_.begin(), series_.end() - most);  // as before a window
+    previous_window_ = 0;
     section_ = std::move(s.section);
     find_recurrence();
     return true;
   }
 
-  /// Where vectors grow and the section says regular, or they grow evenly, the motion is on something that repels, as
-  /// is a motion with a symmetry that is not stable; only rounding is small enough to keep it there. It is pushed off.
+  /// If vectors grow and the section says regular, or if they grow evenly, the trajectory is on a repelling set. An
+  /// example is a response with an unstable symmetry. Only rounding is small enough to keep the trajectory there. A
+  /// push moves it off.
   void leave_what_repels() {
     const Evidence& seen = result_.evidence;
     if (left_at_ || direction_.empty() || !(seen.late_growth > neutral_growth) || !seen.zero_one ||
@@ -691,11 +697,11 @@ class Classifier {
     if (shrinks_areas())
       return "no torus: the map of one period shrinks all areas in the plane, and an invariant curve keeps its own";
     constexpr std::size_t parts = 4;
-    const std::size_t length = whole_look_.size() / parts;
-    const std::size_t dimension = whole_look_.dimension;
+    const std::size_t length = whole_window_.size() / parts;
+    const std::size_t dimension = whole_window_.dimension;
     std::array<PoincareSection, parts> part;
     for (std::size_t i = 0; i < parts; ++i) {
-      const auto begin = whole_look_.states.begin() + static_cast<std::ptrdiff_t>(i * length * dimension);
+      const auto begin = whole_window_.states.begin() + static_cast<std::ptrdiff_t>(i * length * dimension);
       part[i] = {dimension, {begin, begin + static_cast<std::ptrdiff_t>(length * dimension)}};
     }
     const PoincareSection& late = part.back();
@@ -716,13 +722,13 @@ class Classifier {
     double slowest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k + best < late.size(); ++k)
       slowest = std::min(slowest, largest_difference(late.point(k), late.point(k + best)));
-    if (slowest < least_turning * least)
+    if (slowest < least_rotation_rate * least)
       return "no torus: the states stay nearly at rest at a point of a cycle of " + std::to_string(best) + " periods";
     return {};
   }
 
-  /// In one dimension, or in two where the map of one period shrinks all areas about the motion: there an attracting
-  /// invariant curve would have to keep the area that it holds. Tried on a grid over the section.
+  /// True in one dimension. True in two dimensions if the map of one period shrinks all areas about the trajectory, on
+  /// a grid over the section. An attracting invariant curve would have to keep the area inside it.
   bool shrinks_areas() {
     const std::size_t dimension = state_.size();
     if (dimension == 1) return true;
@@ -730,10 +736,10 @@ class Classifier {
     std::array<double, 2> low{};
     std::array<double, 2> high{};
     for (std::size_t j = 0; j < 2; ++j) {
-      low[j] = high[j] = whole_look_.point(0)[j];
-      for (std::size_t k = 1; k < whole_look_.size(); ++k) {
-        low[j] = std::min(low[j], whole_look_.point(k)[j]);
-        high[j] = std::max(high[j], whole_look_.point(k)[j]);
+      low[j] = high[j] = whole_window_.point(0)[j];
+      for (std::size_t k = 1; k < whole_window_.size(); ++k) {
+        low[j] = std::min(low[j], whole_window_.point(k)[j]);
+        high[j] = std::max(high[j], whole_window_.point(k)[j]);
       }
     }
     constexpr int across = 5;
@@ -751,8 +757,8 @@ class Classifier {
     return all;
   }
 
-  /// Whether the interval of the exponent excludes that vectors have grown by more than e^8 over all periods that it
-  /// counts. Beside a torus they are bounded. In weak chaos they may neither grow nor shrink for hundreds of periods.
+  /// Does the interval of the exponent exclude growth by more than e^8 over all periods that it counts? Beside a torus
+  /// they are bounded. In weak chaos they may neither grow nor shrink for hundreds of periods.
   [[nodiscard]] bool growth_is_bounded() const {
     const auto counted = static_cast<double>(counted_growth().size());
     return result_.evidence.exponent.high() * flow_->field().period * counted <= 4.0 * neutral_growth;
@@ -760,14 +766,16 @@ class Classifier {
 
   bool is_torus() {
     Evidence& seen = result_.evidence;
-    // What is drawn to an orbit slowly shrinks for long before it recurs. Beside a torus that shears, vectors grow as
-    // time does, so that a small positive exponent is none.
-    const bool settles = seen.exponent.value + 3.0 * seen.exponent.half_width < 0.0;
+    // Near an orbit that attracts slowly, vectors shrink long before the trajectory recurs. Beside a torus with shear,
+    // vectors grow in proportion to time, so a small positive exponent does not count.
+    const bool decays = seen.exponent.value + 3.0 * seen.exponent.half_width < 0.0;
     if (growth_.size() >= static_cast<std::size_t>(torus_window) && std::abs(late_growth(growth_)) <= neutral_growth &&
-        !settles && seen.zero_one && *seen.zero_one < regular_vote && growth_is_bounded()) {
-      // Beside a flip of a long orbit all this holds, too, at any price of seeking it so far.
+        !decays && seen.zero_one && *seen.zero_one < regular_vote && growth_is_bounded()) {
+      // Beside a period doubling (flip) of a long orbit all this holds, too. The search for that orbit has no limit of
+      // cost.
       const Recurrence& r = seen.recurrence;
-      if (r.best_period > 0 && r.error <= near_enough(options_.near) && settles_to_orbit_of(r.best_period)) return true;
+      if (r.best_period > 0 && r.error <= near_enough(options_.near) && converges_to_orbit_of(r.best_period))
+        return true;
       if (attracted_ || indistinct_.count(r.best_period) > 0) return false;
       if (const std::string against = against_torus(); !against.empty()) {
         seen.note = against;
@@ -788,28 +796,29 @@ class Classifier {
   const RegimeOptions& options_;
   const std::function<bool()>& go_on_;
   std::span<double> state_;
-  integrate::Flow* flow_;     ///< of looks
+  integrate::Flow* flow_;     ///< of windows
   integrate::Flow* exact_;    ///< of orbits
   integrate::Flow* coarser_;  ///< of their multipliers' errors
-  integrate::Flow* loose_;    ///< of looks at what grows
-  integrate::Flow* tight_;    ///< of looks at what does not
+  integrate::Flow* loose_;    ///< of windows with growth
+  integrate::Flow* tight_;    ///< of windows without growth
   double residual_;           ///< of an orbit, in parts of its largest component
-  bool contradicts_ = false;  ///< growth and the 0-1 test of the last look contradict each other
-  bool returned_ = false;     ///< looks have been loose, or a tighter tolerance was asked
-  int level_periods_ = 0;     ///< looked at by this flow
-  PoincareSection whole_look_;
+  bool contradicts_ = false;  ///< growth and the 0-1 test of the last window contradict each other
+  bool returned_ = false;     ///< windows have been loose, or a tighter tolerance was requested
+  int level_periods_ = 0;     ///< periods by this flow
+  PoincareSection whole_window_;
   Classification result_;
   PoincareSection section_;
   int first_ = 0;                  ///< periods of the section that was seen before
   double scale_ = 0;               ///< largest component of the section
   std::map<int, double> in_vain_;  ///< recurrence error after n periods when an orbit of period n was sought in vain
-  std::vector<double> growth_;     ///< g_k of all looks
-  std::vector<double> series_;     ///< the observable over the look before and this one
-  std::vector<double> direction_;  ///< of the tangent vector at the end of the last look
-  bool attracted_ = false;    ///< the orbit that was sought last attracts, though the motion is not yet drawn to it
-  std::set<int> indistinct_;  ///< periods of orbits that do not attract, and that the motion is not told from
-  std::optional<std::size_t> left_at_{};  ///< so many of g_k were known when the motion was pushed off what repels
-  std::size_t look_before_ = 0;           ///< how many of them are of the look before
+  std::vector<double> growth_;     ///< g_k of all windows
+  std::vector<double> series_;     ///< the observable over the window before and this one
+  std::vector<double> direction_;  ///< of the tangent vector at the end of the last window
+  bool attracted_ = false;  ///< the last orbit that was searched attracts, but the trajectory does not yet approach it
+  std::set<int>
+      indistinct_;  ///< periods of orbits that do not attract, and that the trajectory cannot be distinguished from
+  std::optional<std::size_t> left_at_{};  ///< number of g_k that were known at the push off a repelling set
+  std::size_t previous_window_ = 0;       ///< number of values of the window before
 };
 
 }  // namespace

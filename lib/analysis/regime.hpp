@@ -1,54 +1,54 @@
-// What kind of motion a periodically forced flow settles to, told by evidence.
+// The regime of the attractor that a periodically forced flow reaches, with its evidence.
 //
-// The state is carried on in looks. A look records a stroboscopic section and asks whether the motion is
+// The state is integrated over windows. A window records a stroboscopic section. The response is
 //
 // - periodic: recurrence [A-rec] names candidates n; Newton's method finds an orbit y* of period n [A-orbit] with a
 //   residual far below the recurrence error, of no shorter period to within its error [A-orbit-error]; all its
-//   multipliers are inside the unit circle by more than `neutral` and by more than their error, which is the difference
-//   from those of another tolerance, or of shooting in n + 1 pieces; and the motion is already drawn to it: followed
-//   from its last point y_0 until it is no farther from the orbit than it was there, or for 16 returns, each of them
-//   is one that the monodromy M has it make,
+//   multipliers are inside the unit circle by more than `neutral` and by more than their error. The error is the
+//   difference from the multipliers at another tolerance, or by shooting in n + 1 intervals. The trajectory also
+//   approaches the orbit. It is followed from its last point y_0 until it is no farther from the orbit than there, or
+//   for 16 returns. Each return is one that the monodromy M predicts,
 //
-//     | (y_(k+1)n - y*) - M (y_kn - y*) | <= | y_kn - y* | / 10,                                       [A-settled]
+//     | (y_(k+1)n - y*) - M (y_kn - y*) | <= | y_kn - y* | / 10,                                       [A-approach]
 //
-//   and M leads it at no return beyond twice the largest distance that was seen, which is the proof: nothing but time
-//   is then between the motion and the orbit. One return does not do: where M is far from normal a difference grows
-//   tenfold before it shrinks, into a contact that it began too near to the orbit to know of.
-// - chaotic: the largest exponent, of the last three quarters of all looks, is positive by its interval [A-lyap], the
-//   0-1 test agrees, and it lasts for `lasting` periods, through which the motion is carried without tangents;
-//   for the whole budget if Newton's method finds an orbit that attracts from one of the close returns of a look
-//   without growth, which is how a motion comes to an orbit in the end. Where the test abstains vectors have to grow by
-//   e^8 in the last half of all looks. Where it says regular, it is asked again without the turn through the bands, if
-//   the motion all but recurs after n periods; where it still does the two contradict each other, and the motion is not
-//   chaotic: it is looked at for longer, at tighter tolerances if growth is weak, and is undecided in the end. Vectors
-//   grow beside what repels, too: the motion is therefore pushed a little in their direction, once: an attractor does
-//   not mind. Growth below e^8 in 128 periods has to last at the tolerance of orbits, too: errors of a looser one alone
-//   keep a motion off an orbit that attracts from near by.
-// - quasiperiodic: over the last half of all looks, long ones, tangent vectors neither grow nor shrink by more than
-//   e^2, as beside a torus, the exponent's interval excludes growth by more than e^8 over all periods that it counts,
-//   it is not negative by three half intervals, the 0-1 test says regular, and what
-//   the motion all but comes back to after n periods is no orbit, nor is the motion where an orbit of n periods may be
-//   by ten times its error [A-orbit-error], nor does Newton's method near one that it does not reach. Beside that a
-//   torus needs evidence of its own, from the last look [A-torus]:
+//   and no predicted return is beyond twice the largest distance seen. This is the proof: only time separates the
+//   trajectory from the orbit. One return is not sufficient. If M is far from normal, a difference can grow tenfold
+//   before it shrinks, and reach another contact.
+// - chaotic: the largest exponent, of the last three quarters of all windows, is positive by its interval [A-lyap], the
+//   0-1 test agrees, and chaos lasts for `lasting` periods, which are integrated without tangents. It has to
+//   last for the whole budget if Newton's method finds an attracting orbit from a close return of a window without
+//   growth: a trajectory may reach an orbit through such a return. If the test abstains, vectors have to grow by e^8 in
+//   the last half of all windows. If the test says regular and the trajectory nearly recurs after n periods, the test
+//   is repeated without the sequence of bands. If it still says regular, growth and test contradict each other, and the
+//   response is not chaotic. Longer windows follow, at tighter tolerances if growth is weak; without a result the
+//   response is undecided. Vectors also grow beside a repelling set. So the state is pushed a little in their
+//   direction, once, which does not move it off an attractor. Growth below e^8 in 128 periods also has to last at the
+//   tolerance of orbits: errors of a looser tolerance alone can keep a trajectory off an orbit that attracts from near
+//   by.
+// - quasiperiodic: over the last half of all windows, which are long, tangent vectors neither grow nor shrink by more
+//   than e^2, as beside a torus. The exponent's interval excludes growth by more than e^8 over all periods that it
+//   counts. The exponent is not negative by three half intervals, and the 0-1 test says regular. A near return after n
+//   periods leads to no orbit. The trajectory is farther from each orbit of n periods than ten times the orbit's error
+//   [A-orbit-error]. Newton's method does not approach an orbit without reaching it. A torus also needs evidence of its
+//   own, from the last window [A-torus]:
 //
-//     no n up to an eighth of the look has a return error r_n [A-rec] that falls to 3/4 from each quarter to the next;
-//     after the n of the least error the motion has moved everywhere by a hundredth of the farthest at least; in two
-//     dimensions the map of one period does not shrink areas at all points of a grid over the section, since an
+//     no n up to an eighth of the window has a return error r_n [A-rec] that falls to 3/4 from each quarter to the
+//     next; after the n of the least error each point has moved by at least a hundredth of the largest displacement; in
+//     two dimensions the map of one period does not shrink areas at all points of a grid over the section, since an
 //     invariant curve would have to keep the area that it holds. In one dimension there is none.
 //
-// If none of these holds the transient was too short or the look was: the next look is twice as long. When the budget
-// is spent the motion is undecided, and the evidence says what was seen. So a transient ends when the motion has
-// settled, not after a number of periods that somebody thought of.
+// If none of these holds, the transient or the window was too short: the next window is twice as long. When the budget
+// is spent, the response is undecided, and the evidence says what was seen. So the transient ends when the trajectory
+// has reached its attractor, not after a fixed number of periods.
 //
-// Looks may be at a looser tolerance than the orbits', but only while vectors grow, where the place of a motion is
-// forgotten anyhow. A loose look without growth does not count: the motion goes on from where that look began, at the
-// tolerance of the orbits, so that it stays in the basin that it began in. What is not told after 1024 periods without
-// growth is looked at with a tolerance that is tighter by a hundredth, and again.
+// Windows may use a looser tolerance than the orbits, but only while vectors grow: then the trajectory forgets its
+// state anyhow. A loose window without growth does not count. The trajectory continues from the beginning of that
+// window at the tolerance of the orbits, so that it stays in its basin. If 1024 periods without growth give no regime,
+// the tolerance becomes a hundredth of the last one, repeatedly.
 //
 // Limits: a chaotic transient that outlives `lasting` is called chaotic unless that search finds its end, one that
-// outlives the budget always; a periodic orbit that loses its stability at
-// this very parameter is undecided; a system without forcing may be given a period of its own choice, and its limit
-// cycles then are quasiperiodic.
+// outlives the budget always. A periodic orbit that loses its stability at this very parameter is undecided. The caller
+// may choose a period for a system without forcing; its limit cycles then are quasiperiodic.
 #pragma once
 
 #include <cstddef>
@@ -76,15 +76,15 @@ struct FlowsOfTolerance {
 };
 
 struct RegimeOptions {
-  int window = 64;          ///< periods of the first look
-  int budget = 8192;        ///< periods of all looks together
+  int window = 64;          ///< periods of the first window
+  int budget = 8192;        ///< periods of all windows together
   int lasting = 4096;       ///< periods that chaos has to last, at most the budget, if nothing speaks for another end
   int longest_period = 16;  ///< largest n that is tried
   double near = 0.1;        ///< a recurrence error above this part of the section's extent makes no candidate [-]
   double residual = 1e-9;   ///< of the orbit, that counts as found, in parts of the largest component seen [-];
                             ///< a few tolerances of the flow, whose map kinks make rough
   double neutral = 1e-6;    ///< a multiplier's modulus this near to 1 attracts nothing: errors could put it outside
-  std::size_t observable = 0;  ///< component of the state that the 0-1 test looks at
+  std::size_t observable = 0;  ///< component of the state for the 0-1 test
 
   /// The system by a flow that controls the error of tangents, for orbits and their multipliers: behind a kink
   /// they are off by far more than the tolerance without. Null: the flow itself.
@@ -93,29 +93,29 @@ struct RegimeOptions {
   /// sequence of steps changes is less than what the tolerance does. Null: from another subdivision, which knows of the
   /// steps alone.
   integrate::Flow* coarser = nullptr;
-  /// The same system at the tolerance of `exact` for looks at what does not grow, which a looser flow could lead to
-  /// another attractor than its own. Null: the flow itself.
+  /// The same system at the tolerance of `exact` for windows without growth, which a looser flow could lead to another
+  /// attractor. Null: the flow itself.
   integrate::Flow* tight = nullptr;
-  /// All three at a hundredth of the last tolerance, for what the last ones did not tell; nothing if there are none
-  /// that tell more. May be empty.
+  /// All three at a hundredth of the last tolerance, if the last ones gave no regime; nothing if there are no tighter
+  /// ones. May be empty.
   std::function<std::optional<FlowsOfTolerance>()> tighter{};
 
-  /// @throws InputError for looks shorter than anything is told from, a budget shorter than the first of them, or a
+  /// @throws InputError for windows that are too short for any regime, a budget shorter than the first window, or a
   /// number of periods or a bound out of range
   void validate() const;
 };
 
 /// What the decision rests on.
 struct Evidence {
-  int periods = 0;                ///< of the forcing, looked at altogether
-  Recurrence recurrence;          ///< of the last 128 periods of the last look
+  int periods = 0;                ///< of the forcing, in all windows
+  Recurrence recurrence;          ///< of the last 128 periods of the last window
   double residual = 0;            ///< of the orbit, if there is one
   double orbit_error = 0;         ///< how far its points may be from the orbit [A-orbit-error]
   double largest_multiplier = 0;  ///< modulus
   double multiplier_error = 0;
   Estimate exponent;                 ///< largest, per unit of s: measured, or log of the multiplier over the period
-  double late_growth = 0;            ///< log growth of a tangent vector over the last half of the last look
-  std::optional<double> zero_one{};  ///< K of the last look, if it was asked
+  double late_growth = 0;            ///< log growth of a tangent vector over the last half of the last window
+  std::optional<double> zero_one{};  ///< K of the last window, if it was computed
   std::string note;                  ///< in words
 };
 
@@ -128,8 +128,8 @@ struct Classification {
 };
 
 /// @param state  replaced by the last state
-/// @param seen   a section of this very motion that ends in `state`: asked first whether it is periodic, not counted in
-///               the budget; may be null
+/// @param seen   a section of this trajectory that ends in `state`: first tested for a periodic response, not counted
+///               in the budget; may be null
 /// @throws DomainError when the flow's field has no period; InputError for options out of range, or an observable that
 /// is no component of the state
 [[nodiscard]] Classification classify(integrate::Flow& flow, std::span<double> state, const RegimeOptions& options,

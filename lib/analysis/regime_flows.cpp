@@ -17,7 +17,7 @@ integrate::IntegratorOptions scaled(integrate::IntegratorOptions o, double facto
 
 }  // namespace
 
-/// What is made on the way.
+/// The flow, with its intermediate results.
 struct RegimeFlows::Tighter {
   integrate::IntegratorOptions integrator;  ///< of the last ones
   integrate::FlowMaker make_flow;
@@ -54,10 +54,10 @@ long RegimeFlows::right_hand_side_calls() const {
 
 RegimeFlows make_regime_flows(const VectorField& field, const integrate::IntegratorOptions& integrator,
                               const integrate::FlowMaker& make_flow) {
-  const double of_looks = std::min(statistical_tolerance / integrator.relative_tolerance, 100.0);
+  const double of_windows = std::min(statistical_tolerance / integrator.relative_tolerance, 100.0);
   const bool controlled = integrator.tangent_error_control;
   const auto made = [&](double factor, bool control) { return make_flow(field, scaled(integrator, factor, control)); };
-  return {made(of_looks, controlled), made(1.0, controlled), made(1.0, true), made(10.0, true),
+  return {made(of_windows, controlled), made(1.0, controlled), made(1.0, true), made(10.0, true),
           std::make_shared<RegimeFlows::Tighter>(RegimeFlows::Tighter{integrator, make_flow, {}})};
 }
 

@@ -14,10 +14,10 @@ namespace epicyclic::analysis {
 /// this kinks pass unseen, and growth is off by more than a torus's interval.
 inline constexpr double statistical_tolerance = 1e-6;
 
-/// Looks at what grows, where growth is a matter of statistics, at the tolerance above, or one up to a hundred times
-/// looser, at what does not grow at the one asked for; orbits at that one, tangents under error control; and once more
-/// at ten times that, for what multipliers are known to. Tighter ones by hundredths down to 1e-12 are made when they
-/// are asked for.
+/// Flows of one classification. Windows of a growing trajectory, where growth is a matter of statistics, use the
+/// tolerance above, or one up to a hundred times looser. Windows without growth use the requested tolerance. Orbits use
+/// that one too, with tangents under error control, and once more ten times that tolerance, for the errors of
+/// multipliers. Tighter flows, each by a factor of a hundred down to 1e-12, are made on request.
 struct RegimeFlows {
   struct Tighter;
 

@@ -9,16 +9,16 @@ namespace epicyclic::analysis {
 
 namespace {
 
-/// From one s to another within a period of the forcing.
+/// Interval of s within a period of the forcing.
 struct Span {
   double from = 0;
   double to = 0;
 };
 
-/// Piece `i` of `pieces` of n periods, cut where periods end, so that each begins at the phase 0 to the last bit.
+/// Shooting interval `i` of n periods, cut where periods end, so that each part begins at the phase 0 to the last bit.
 std::vector<Span> spans(double period, Eigen::Index n, Eigen::Index shooting_intervals, Eigen::Index i) {
   std::vector<Span> all;
-  // In parts of 1 / pieces of a period.
+  // In units of a period over the number of shooting intervals.
   const auto phase = [&](Eigen::Index parts) {
     return period * static_cast<double>(parts) / static_cast<double>(shooting_intervals);
   };
@@ -89,16 +89,16 @@ std::vector<Stretch> stretches(integrate::Flow& flow, const Eigen::MatrixXd& y, 
   return all;
 }
 
-integrate::Evolution carry_to_intervals(integrate::Flow& flow, Eigen::Index periods, Eigen::MatrixXd& y) {
-  Eigen::VectorXd carried = y.col(0);
+integrate::Evolution integrate_to_intervals(integrate::Flow& flow, Eigen::Index periods, Eigen::MatrixXd& y) {
+  Eigen::VectorXd state = y.col(0);
   integrate::Evolution e;
   flow.forget();
   for (Eigen::Index i = 1; i < y.cols(); ++i) {
     for (const Span& span : spans(period_of(flow.field()), periods, y.cols(), i - 1)) {
-      e = flow.evolve(span_of(carried), span.from, span.to);
+      e = flow.evolve(span_of(state), span.from, span.to);
       if (!e.reached()) return e;
     }
-    y.col(i) = carried;
+    y.col(i) = state;
   }
   return e;
 }

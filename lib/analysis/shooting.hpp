@@ -1,7 +1,7 @@
 // The equations of a periodic orbit by shooting, with their derivatives.
 //
-// An orbit of n periods of the forcing is cut into p pieces at s_i = i n T / p. The states y_i there are sought
-// together,
+// An orbit of n periods of the forcing is split into p shooting intervals at s_i = i n T / p. The states y_i there are
+// the unknowns,
 //
 //   F_i = phi(s_i -> s_i+1)(y_i; p) - y_i+1 = 0 ,    M_i = d phi / d y_i ,    b_i = d phi / d p              [A-shoot]
 //
@@ -21,16 +21,16 @@ namespace epicyclic::analysis {
 /// One evaluation at states y_i, the columns of a dimension x p matrix.
 struct Shot {
   Eigen::MatrixXd residual;                    ///< F_i in column i
-  std::vector<Eigen::MatrixXd> interval_maps;  ///< M_i; empty where only residuals were asked for
-  Eigen::MatrixXd parameter;                   ///< b_i in column i; empty unless asked for
-  integrate::Evolution evolution;  ///< of the piece that was not reached, and then all else is of no meaning
+  std::vector<Eigen::MatrixXd> interval_maps;  ///< M_i; empty if only residuals were requested
+  Eigen::MatrixXd parameter;                   ///< b_i in column i; empty unless requested
+  integrate::Evolution evolution;  ///< of the interval whose end was not reached; then all other members are undefined
 
   /// M_p-1 ... M_0: how a small change of y_0 comes back.
   [[nodiscard]] MatrixProduct monodromy() const { return {interval_maps}; }
 };
 
 /// Residuals and their derivatives.
-/// @param y        states at the beginnings of the pieces, one a column
+/// @param y        states at the beginnings of the shooting intervals, one a column
 /// @param periods  n
 /// @throws as Flow::evolve_tangents()
 [[nodiscard]] Shot shoot(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index periods,
@@ -45,12 +45,12 @@ struct Stretch {
   Eigen::VectorXd state;
 };
 
-/// The orbit as stretches, each carried from the one before or from the beginning of its piece.
+/// The orbit as stretches, each integrated from the one before or from the beginning of its shooting interval.
 /// @returns none if one was not reached
 [[nodiscard]] std::vector<Stretch> stretches(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index periods);
 
-/// The states where pieces begin, carried from the first one, y.col(0).
-/// @returns how it ended; the states are of no meaning unless reached
-integrate::Evolution carry_to_intervals(integrate::Flow& flow, Eigen::Index periods, Eigen::MatrixXd& y);
+/// Integrates y.col(0) to the beginnings of all shooting intervals.
+/// @returns the outcome; the states are undefined unless it is `reached`
+integrate::Evolution integrate_to_intervals(integrate::Flow& flow, Eigen::Index periods, Eigen::MatrixXd& y);
 
 }  // namespace epicyclic::analysis

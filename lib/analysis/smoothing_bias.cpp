@@ -12,7 +12,7 @@ namespace {
 
 /// v_0 through three widths.
 double intercept(std::span<const SmoothedValue, 3> values) {
-  // In parts of the coarsest width, for the sake of the matrix's scales.
+  // In parts of the coarsest width, for the scaling of the matrix.
   const double unit = values[0].width;
   Eigen::MatrixXd a(3, 3);
   Eigen::VectorXd v(3);

@@ -1,11 +1,11 @@
 // A number that depends on the width of a smooth clearance, extrapolated to the exact one.
 //
-// The smooth force exceeds the exact one by (sqrt(x^2 + w^2) - |x|) / 2 at a distance x from an edge. A motion that
-// crosses the edge at the speed u, x = u t, takes from it the impulse
+// The smooth force exceeds the exact one by (sqrt(x^2 + w^2) - |x|) / 2 at a distance x from an edge. A trajectory that
+// crosses the edge at the speed u, x = u t, receives the impulse
 //
 //   (1 / 2u) int (sqrt(x^2 + w^2) - |x|) dx = w^2 / 2u (ln(2 L / w) + 1/2) + O(w^4 / L^2)
 //
-// over |x| < L, so that to the first order what follows from the motion is
+// over |x| < L, so that to the first order a result of the trajectory is
 //
 //   v(w) = v_0 + a w^2 ln w + b w^2                                                                     [A-smooth]
 //

@@ -35,7 +35,7 @@ std::optional<SpecialKind> event_between(const InvariantBlock& block, const Sign
     case Crossing::plus:
       return a.falling != b.falling ? SpecialKind::fold : SpecialKind::branch_point;
     case Crossing::minus:
-      return SpecialKind::flip;
+      return SpecialKind::period_doubling;
     case Crossing::pair:
       return SpecialKind::neimark_sacker;
     case Crossing::unresolved:
@@ -50,7 +50,7 @@ std::complex<double> critical(SpecialKind kind, const Multipliers& values, std::
     case SpecialKind::fold:
     case SpecialKind::branch_point:
       return nearest(values, 1.0);
-    case SpecialKind::flip:
+    case SpecialKind::period_doubling:
       return nearest(values, -1.0);
     default:
       return nearest(values, expected);
@@ -90,7 +90,7 @@ class Event {
     inside_ = std::min(at_a.outside, at_b.outside);
     outwards_ = at_b.outside > at_a.outside;
     crosses_here_ = kind == SpecialKind::branch_point && block.symmetry_index == 0;
-    turns_ = kind == SpecialKind::fold || (crosses_here_ && at_a.plus == at_b.plus);
+    parameter_extremum_ = kind == SpecialKind::fold || (crosses_here_ && at_a.plus == at_b.plus);
   }
 
   SpecialPoint locate() {
@@ -137,7 +137,7 @@ class Event {
     constexpr double real = 1e-6;
     if (kind_ == SpecialKind::neimark_sacker && !block_->real) {
       if (std::abs(std::arg(point.multiplier)) < real) point.kind = SpecialKind::branch_point;
-      if (std::numbers::pi - std::abs(std::arg(point.multiplier)) < real) point.kind = SpecialKind::flip;
+      if (std::numbers::pi - std::abs(std::arg(point.multiplier)) < real) point.kind = SpecialKind::period_doubling;
     }
     if (point.kind == SpecialKind::neimark_sacker) point.resonance = resonance();
     return point;
@@ -157,25 +157,25 @@ class Event {
     return between_neighbours(a_, b_, block_ != nullptr ? block_->symmetry_index : 0, to_string(kind_) + ": " + note);
   }
 
-  /// Of another sign on each side of the event, whatever else happens to the multipliers.
+  /// Has opposite signs on the two sides of the event, whatever else happens to the multipliers.
   [[nodiscard]] double sign_function(const BranchOrbit& orbit) const {
     if (kind_ == SpecialKind::grazing) return nearest_to_the_surface(family_, orbit);
-    if (turns_) return orbit.direction.value;
+    if (parameter_extremum_) return orbit.direction.value;
     // Of two that cross together no parity changes.
-    const Crossing crossing = nullity_ > 1                         ? Crossing::pair
-                              : kind_ == SpecialKind::branch_point ? Crossing::plus
-                              : kind_ == SpecialKind::flip         ? Crossing::minus
-                                                                   : Crossing::pair;
+    const Crossing crossing = nullity_ > 1                            ? Crossing::pair
+                              : kind_ == SpecialKind::branch_point    ? Crossing::plus
+                              : kind_ == SpecialKind::period_doubling ? Crossing::minus
+                                                                      : Crossing::pair;
     return analysis::sign_function(*block_, crossing, multipliers_of(*block_, orbit.monodromy), inside_);
   }
 
   /// Smooth at the event, by the multiplier that it is about.
   [[nodiscard]] double smooth_function(const OrbitFamily& family, const BranchOrbit& orbit) const {
     if (kind_ == SpecialKind::grazing) return nearest_to_the_surface(family, orbit);
-    if (turns_) return orbit.direction.value / family_.value_scale;
+    if (parameter_extremum_) return orbit.direction.value / family_.value_scale;
     const std::complex<double> x = critical(kind_, multipliers_of(*block_, orbit.monodromy), expected_);
     if (kind_ == SpecialKind::branch_point) return x.real() - 1.0;
-    if (kind_ == SpecialKind::flip) return x.real() + 1.0;
+    if (kind_ == SpecialKind::period_doubling) return x.real() + 1.0;
     return std::log(std::abs(x));
   }
 
@@ -185,7 +185,7 @@ class Event {
     return *value;
   }
 
-  /// To a thousandth of the way from a to b.
+  /// To a thousandth of the distance from a to b.
   void bracket() {
     constexpr double width = 1e-3;
     const auto function = [&](double part) {
@@ -201,19 +201,19 @@ class Event {
     if (block_ == nullptr) return;
     const Multipliers values = multipliers_of(*block_, near_.monodromy);
     expected_ = kind_ == SpecialKind::neimark_sacker ? values.at(inside_) : critical(kind_, values, 0.0);
-    if (kind_ == SpecialKind::neimark_sacker && block_->real) tell_double();
+    if (kind_ == SpecialKind::neimark_sacker && block_->real) classify_double();
   }
 
   /// Is it a pair, or are it two real ones of parts that are alike?
-  void tell_double() {
-    // Of the way from a to b they are a thousandth away, and so is what the null space of two is known by. A pair that
-    // meets at +1 or -1 has one eigenvector there: the second singular value is of the order of 1.
+  void classify_double() {
+    // They may be a thousandth of the distance from a to b away, and the second singular value as far from 0. A pair
+    // that meets at +1 or -1 has one eigenvector there: the second singular value is of the order of 1.
     constexpr double near = 1e-2;
     for (const double at : {1.0, -1.0}) {
       if (!(std::abs(expected_ - at) < near)) continue;
       const Eigen::VectorXd s = singular_values(real_block_of(*block_, near_.monodromy).cyclic(at)).s;
       if (s.size() < 2 || !(s(s.size() - 2) < near)) continue;
-      kind_ = at > 0.0 ? SpecialKind::branch_point : SpecialKind::flip;
+      kind_ = at > 0.0 ? SpecialKind::branch_point : SpecialKind::period_doubling;
       nullity_ = 2;
       crosses_here_ = at > 0.0 && block_->symmetry_index == 0;
     }
@@ -238,7 +238,7 @@ class Event {
     const double span = length(family_, b_.at - a_.at);
     if (!secant_root(at, 1e-3 * span, span)) return std::nullopt;
     Place place{last.orbit.at.value, last.orbit, critical_of(last.orbit)};
-    if (turns_) return place;
+    if (parameter_extremum_) return place;
     // A root that is resolved to 1e-11 of f leaves the same error to each family: by the slope to what f resolves.
     constexpr double resolved = 1e-11;
     const double here = smooth_function(family, place.orbit);
@@ -270,19 +270,20 @@ class Event {
   [[nodiscard]] static Correction recut(const OrbitFamily& family, const BranchOrbit& orbit) {
     if (orbit.at.states.cols() == family.shooting_intervals) return correct(family, orbit.at, orbit.direction);
     constexpr double little = 1e-4;
-    const std::optional<CurvePoint> at = cut_into_pieces(family, orbit.at.states.col(0), orbit.at.value);
+    const std::optional<CurvePoint> at = split_into_intervals(family, orbit.at.states.col(0), orbit.at.value);
     const CurvePoint beyond = orbit.at + little * orbit.direction;
-    const std::optional<CurvePoint> ahead = cut_into_pieces(family, beyond.states.col(0), beyond.value);
+    const std::optional<CurvePoint> ahead = split_into_intervals(family, beyond.states.col(0), beyond.value);
     if (!at || !ahead) return {};
     return correct(family, *at, (1.0 / little) * (*ahead - *at));
   }
 
-  /// Where branches cross, the orbits of both are solutions and the equations singular: from three orbits on each side.
+  /// At a crossing of branches, the orbits of both are solutions, and the equations are singular. The place follows
+  /// from three orbits on each side.
   [[nodiscard]] std::optional<Place> from_beside(const OrbitFamily& family) const {
     const Correction a = recut(family, a_);
     const Correction b = recut(family, b_);
     if (!a.found || !b.found) return std::nullopt;
-    constexpr double apart = 0.05;  // in parts of the way from a to b
+    constexpr double apart = 0.05;  // in parts of the distance from a to b
     constexpr std::array<double, 6> beside = {-3.0 * apart, -2.0 * apart, -apart, apart, 2.0 * apart, 3.0 * apart};
     const double at_a = sign_function(a_);
     double root = at_a / (at_a - sign_function(b_));
@@ -304,7 +305,8 @@ class Event {
         Place place = interpolated(orbits, lagrange(beside, step));
         for (const bool inner : {true, false})
           place.spread = std::max(place.spread, std::abs(by_four(orbits, f, inner) - place.value));
-        if (!turns_) place.rounding = rounding_of(place, (orbits[5].at.value - orbits[0].at.value) / (f[5] - f[0]));
+        if (!parameter_extremum_)
+          place.rounding = rounding_of(place, (orbits[5].at.value - orbits[0].at.value) / (f[5] - f[0]));
         return place;
       }
       root += step;
@@ -393,8 +395,8 @@ class Event {
   const SpecialOptions& options_;
   std::size_t inside_ = 0;
   bool outwards_ = false;
-  bool crosses_here_ = false;  ///< another branch, among the orbits that Newton's method finds
-  bool turns_ = false;         ///< the parameter does
+  bool crosses_here_ = false;        ///< another branch, among the orbits that Newton's method finds
+  bool parameter_extremum_ = false;  ///< the parameter has an extremum here
   BranchOrbit near_;
   std::complex<double> expected_;
   std::vector<double> values_, angles_;  ///< of the family and finer ones; angles without sign
@@ -402,17 +404,17 @@ class Event {
   int nullity_ = 1;
 };
 
-/// Is a turn of the parameter without a crossing a pitchfork, seen from the branch that is born there? The multiplier
-/// touches 1 then and is on one side before and behind; where it is not, a fold stands beside a branch point.
-bool turns_at_a_pitchfork(const OrbitFamily& family, const InvariantBlock& block, const BranchOrbit& a,
-                          const BranchOrbit& b) {
+/// Is an extremum of the parameter without a crossing a pitchfork, seen from the branch that begins there? The
+/// multiplier touches 1 there and is on one side before and behind. Otherwise a fold stands beside a branch point.
+bool parameter_extremum_at_pitchfork(const OrbitFamily& family, const InvariantBlock& block, const BranchOrbit& a,
+                                     const BranchOrbit& b) {
   const Signs at_a = signs_of(block, a);
   const Signs at_b = signs_of(block, b);
   if (at_a.falling == at_b.falling || at_a.plus != at_b.plus || at_a.minus != at_b.minus ||
       at_a.outside != at_b.outside)
     return false;
   const double root = a.direction.value / (a.direction.value - b.direction.value);
-  // So far from the turn that the multiplier is clear of 1.
+  // So far from the extremum that the multiplier is clear of 1.
   constexpr double aside = 0.15;
   const Correction before = between(family, a, b, root - aside);
   const Correction behind = between(family, a, b, root + aside);
@@ -423,13 +425,14 @@ bool turns_at_a_pitchfork(const OrbitFamily& family, const InvariantBlock& block
          right.plus == at_a.plus;
 }
 
-/// Are as many other multipliers beyond the unit circle at an event as on the better side of it? If not, it is not the
-/// only one between the two: a flip inwards and a torus outwards look like a flip outwards.
+/// Are as many other multipliers beyond the unit circle at an event as on the better side of it? If not, another event
+/// lies between the two orbits: a period doubling inwards and a torus outwards have the counts of a period doubling
+/// outwards.
 bool is_the_only_one(const InvariantBlock& block, SpecialKind kind, const SpecialPoint& point, const BranchOrbit& a,
                      const BranchOrbit& b) {
   const Signs at_a = signs_of(block, a);
   const Signs at_b = signs_of(block, b);
-  // A turn that nothing crosses at has the multiplier on the same side before and behind.
+  // At an extremum of the parameter without a crossing, the multiplier is on the same side before and behind.
   if (at_a.outside == at_b.outside) return true;
   Multipliers others = multipliers_of(block, point.orbit.monodromy);
   const auto leave_out = [&](std::complex<double> critical) {
@@ -441,7 +444,7 @@ bool is_the_only_one(const InvariantBlock& block, SpecialKind kind, const Specia
 }
 
 /// Do some multipliers leave the unit circle while others come in?
-bool cross_both_ways(const InvariantBlock& block, const BranchOrbit& a, const BranchOrbit& b) {
+bool cross_in_both_directions(const InvariantBlock& block, const BranchOrbit& a, const BranchOrbit& b) {
   const Passages p = passages_between(multipliers_of(block, a.monodromy), multipliers_of(block, b.monodromy));
   return p.outwards > 0 && p.inwards > 0;
 }
@@ -457,7 +460,7 @@ bool stays_on_the_circle(const OrbitFamily& family, const InvariantBlock& block,
     for (const Refinement& other : options.others) {
       OrbitFamily finer = family;
       finer.flows = other.flows;
-      // By the same pieces: as the states stand.
+      // With the same shooting intervals: the states are those at their beginnings.
       if (const Correction c = correct(finer, orbit->at, orbit->direction); c.found)
         error = std::max(error, std::abs(nearest(multipliers_of(block, c.orbit.monodromy), x) - x));
     }
@@ -470,12 +473,13 @@ bool stays_on_the_circle(const OrbitFamily& family, const InvariantBlock& block,
 void find_events(const OrbitFamily& family, const InvariantBlock& block, const BranchOrbit& a, const BranchOrbit& b,
                  const SpecialOptions& options, int halvings, std::vector<SpecialPoint>& found) {
   std::optional<SpecialKind> kind = event_between(block, signs_of(block, a), signs_of(block, b));
-  const bool both_ways = cross_both_ways(block, a, b);
-  if (!kind && !both_ways) return;
-  if (kind == SpecialKind::neimark_sacker && !both_ways && stays_on_the_circle(family, block, a, b, options)) return;
-  if (kind && turns_at_a_pitchfork(family, block, a, b)) kind = SpecialKind::branch_point;
+  const bool both_directions = cross_in_both_directions(block, a, b);
+  if (!kind && !both_directions) return;
+  if (kind == SpecialKind::neimark_sacker && !both_directions && stays_on_the_circle(family, block, a, b, options))
+    return;
+  if (kind && parameter_extremum_at_pitchfork(family, block, a, b)) kind = SpecialKind::branch_point;
   std::optional<SpecialPoint> one;
-  if (kind && *kind != SpecialKind::unresolved && !both_ways) {
+  if (kind && *kind != SpecialKind::unresolved && !both_directions) {
     one = Event(family, block, *kind, a, b, options).locate();
     if (one->kind == SpecialKind::unresolved || is_the_only_one(block, *kind, *one, a, b)) {
       found.push_back(std::move(*one));
@@ -519,7 +523,7 @@ std::string to_string(SpecialKind kind) {
       return "fold";
     case SpecialKind::branch_point:
       return "branch_point";
-    case SpecialKind::flip:
+    case SpecialKind::period_doubling:
       return "flip";
     case SpecialKind::neimark_sacker:
       return "neimark_sacker";
@@ -540,7 +544,7 @@ void SpecialOptions::validate() const {
 std::vector<SpecialPoint> special_points_between(const OrbitFamily& family, const BranchOrbit& a, const BranchOrbit& b,
                                                  const SpecialOptions& options) {
   options.validate();
-  // Of what is left after as many, neighbours differ by 1e-6 of their distance.
+  // After this number of halvings, neighbours differ by 1e-6 of their distance.
   constexpr int halvings = 20;
   std::vector<SpecialPoint> found;
   for (const InvariantBlock& block : invariant_blocks(static_cast<std::size_t>(a.at.states.rows()), family.kept()))

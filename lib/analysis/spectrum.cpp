@@ -84,8 +84,8 @@ Spectrum amplitude_spectrum(std::span<const double> x, double dt, Window window,
   s.resolution = transform.resolution();
   transform.each(x, [&s, first](std::size_t k, double re, double im, double scale) {
     s.amplitude.push_back(scale * std::hypot(re, im));
-    constexpr double turn = 2.0 * std::numbers::pi;
-    s.phase.push_back(std::remainder(std::atan2(im, re) - turn * s.frequency(k) * first, turn));
+    constexpr double two_pi = 2.0 * std::numbers::pi;
+    s.phase.push_back(std::remainder(std::atan2(im, re) - two_pi * s.frequency(k) * first, two_pi));
   });
   return s;
 }

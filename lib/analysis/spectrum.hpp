@@ -4,8 +4,8 @@
 //   A_k = 2 |X_k| / sum_j w_j   for 0 < k < N/2 ,    half of that at k = 0 and k = N/2                        [A-fft]
 //
 // so that a sine of amplitude a on a bin shows a, whatever the window. Between bins a window loses some of it
-// (rectangular 36 %, Hann 15 %, flat top 0.1 %) and spreads the rest over its main lobe. A motion of period n that is
-// sampled over exactly n periods of the forcing has all its lines on bins, and wants no window.
+// (rectangular 36 %, Hann 15 %, flat top 0.1 %) and spreads the rest over its main lobe. A response of period n that is
+// sampled over exactly n periods of the forcing has all its lines on bins, and needs no window.
 //
 // Source: F. J. Harris, Proc. IEEE 66 (1978) 51; flat top: ISO 18431-2. Transform: GSL, any length (fastest for
 // products of small primes). Smoothness: none needed; kinks show as lines that fall with the square of their order.
@@ -34,12 +34,12 @@ struct Spectrum {
 [[nodiscard]] Spectrum amplitude_spectrum(std::span<const double> x, double dt, Window window, double first = 0.0);
 
 /// The root of the mean square of A_k over stretches of the signal that overlap by half (Welch, IEEE Trans. Audio
-/// Electroacoust. 15 (1967) 70), the signal's mean taken off and told as A_0. Without phases.
+/// Electroacoust. 15 (1967) 70), the signal's mean subtracted and stored as A_0. Without phases.
 /// @param stretch  samples of one; all of them if there are fewer
 /// @throws DomainError for fewer than two samples or dt <= 0
 [[nodiscard]] Spectrum averaged_spectrum(std::span<const double> x, double dt, std::size_t stretch, Window window);
 
-/// A line of a motion that repeats: at p / n of the frequency of the forcing.
+/// A line of a periodic response: at p / n of the frequency of the forcing.
 struct Harmonic {
   int order = 0;   ///< p
   int period = 1;  ///< n

@@ -29,12 +29,12 @@ double periodogram(std::span<const double> series, double mean, std::size_t j) {
   return (re * re + im * im) / static_cast<double>(n);
 }
 
-/// Waves from 2 q on to 6 q tell how the spectrum rises towards those that count.
+/// Frequencies 2 q + 1 to 6 q show how the spectrum rises towards those of the estimate.
 constexpr std::size_t steep = 6;
-constexpr std::size_t from_wave = 2;
+constexpr std::size_t steep_from = 2;
 
-/// Of the half width from the slower half of the waves: the larger of both then holds as often as it should where
-/// nothing is correlated.
+/// Factor of the half width from the lower half of the frequencies. With it, the larger of both half widths holds at
+/// its nominal rate for uncorrelated values.
 constexpr double of_fewer = 0.8;
 
 /// (I_first + ... + I_last) / their number.
@@ -44,15 +44,15 @@ double mean_power(std::span<const double> power, std::size_t first, std::size_t 
   return sum / static_cast<double>(last - first + 1);
 }
 
-/// S(0) over the mean of the first waves, by [A-rise].
-/// @param of  waves that are taken for S(0)
-/// @param q   waves of the estimate: 2 q + 1 ... 6 q are set against these
+/// S(0) over the mean power of the first frequencies, by [A-rise].
+/// @param of  number of frequencies that stand for S(0)
+/// @param q   number of frequencies of the estimate: 2 q + 1 ... 6 q are compared with these
 double rise_to_zero(std::span<const double> power, std::size_t of, std::size_t q) {
   if (power.size() <= steep * q) return 1.0;
   const auto centre = [](std::size_t first, std::size_t last) { return 0.5 * static_cast<double>(first + last); };
   const double near = centre(1, of);
-  const double far = centre(from_wave * q + 1, steep * q);
-  const double ratio = mean_power(power, 1, of) / mean_power(power, from_wave * q + 1, steep * q);
+  const double far = centre(steep_from * q + 1, steep * q);
+  const double ratio = mean_power(power, 1, of) / mean_power(power, steep_from * q + 1, steep * q);
   if (!(ratio > 1.0)) return 1.0;
   const double divisor = far * far - ratio * near * near;
   // A record that is shorter than 2 pi correlation times does not say how much longer they are.

@@ -1,17 +1,18 @@
-// Means of correlated series with confidence intervals, from the slowest waves in the series.
+// Means of correlated series with confidence intervals, from the lowest frequencies of the series.
 //
 //   I_j = | sum_t (x_t - mean) exp(-2 pi i j t / N) |^2 / N ,   S_m = ( I_1 + ... + I_m ) / m
 //   mean(x) +- max( h_q , 0.8 h_q/2 ) ,   h_m = t_2m sqrt( r_m S_m / N )                                   [A-mean]
 //
 // N times the variance of the mean is what I_j would be at j = 0, were the truth subtracted and not the mean; its
-// nearest neighbours stand in for it. They see the ends of the series with the weight that the mean gives them. So what
-// is added at one instant and taken back at a later one, as in the growth of a tangent vector, widens the interval by
-// no more than it should. Means of batches would count it once for each batch: for Lorenz' exponent their intervals are
-// nearly twice as wide as they should be (16 batches of 31 values), and hold the truth in 100 of 100 cases.
+// nearest neighbours stand in for it. They see the ends of the series with the weight that the mean gives them. A
+// contribution that a later one cancels, as in the growth of a tangent vector, widens the interval by no more than it
+// should. Means of batches would count it once for each batch: for Lorenz' exponent their intervals are nearly twice as
+// wide as they should be (16 batches of 31 values), and hold the truth in 100 of 100 cases.
 //
-// Where correlations are long the spectrum rises towards zero within the waves that are counted, and S is too small.
-// The slower half of the waves then says more than all; and S is raised by what a spectrum of one correlation time,
-// S(f) = S(0) / (1 + (f / f_0)^2), has between them and the waves 2 q + 1 ... 6 q with the mean power F,
+// If correlations are long, the spectrum rises towards zero frequency within the frequencies of the estimate, and S is
+// too small. The lower half of the frequencies then is the better estimate. S is also raised by the factor that a
+// spectrum of one correlation time, S(f) = S(0) / (1 + (f / f_0)^2), has between them and the frequencies 2 q + 1 ... 6
+// q with the mean power F,
 //
 //   r_m = 1 + x j_m^2 ,   x = ( S_m / F - 1 ) / ( j_F^2 - j_m^2 S_m / F ) ,  at most 1 ; 1 unless S_m > F    [A-rise]
 //
@@ -20,8 +21,8 @@
 // Source: Heidelberger and Welch, Comm. ACM 24 (1981) 233; with equal weights and Student's t of 2q degrees of freedom:
 // Lazarus et al., J. Bus. Econ. Stat. 36 (2018) 541. The larger of two, its 0.8 and [A-rise] are this project's own.
 // Student's t by GSL. Limits: correlations have to decay by e within N / 25 values (then 93 of 100 intervals of 95 %
-// hold the truth, or more), and oscillations to come round some ten times. No interval knows of rare events that a
-// record has not seen. See tests/analysis/coverage_test.cpp.
+// hold the truth, or more), and oscillations have to complete some ten cycles. No interval accounts for rare events
+// that are not in the record. See tests/analysis/coverage_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -47,11 +48,11 @@ struct Estimate {
 
 inline constexpr double default_confidence = 0.95;
 
-/// q. Twice as many make the interval narrower by 6 % and reach into waves that tell of something else.
+/// q. Twice as many narrow the interval by 6 % and reach frequencies that do not represent the mean.
 inline constexpr int default_frequencies = 4;
 
-/// Mean of the series. In a series too short for q waves, as many as there are: (N - 1) / 2.
-/// @throws DomainError for an empty series, fewer than 1 wave, or a confidence outside (0, 1)
+/// Mean of the series. In a series too short for q frequencies, all that there are: (N - 1) / 2.
+/// @throws DomainError for an empty series, fewer than 1 frequency, or a confidence outside (0, 1)
 [[nodiscard]] Estimate series_mean(std::span<const double> series, int frequencies = default_frequencies,
                                    double confidence = default_confidence);
 

@@ -238,7 +238,7 @@ std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder,
       }
       parameter = sweep->axis.name;
       const std::string symbol = panel.mesh == MeshSide::sun_planet ? "δ_{sp,1} / b_c" : "δ_{rp,1} / b_c";
-      const std::string words = panel.title.empty() ? symbol : figures::literal_text(panel.title) + "    " + symbol;
+      const std::string words = panel.title.empty() ? symbol : figures::verbatim_text(panel.title) + "    " + symbol;
       // The axis spans at least ten recurrence tolerances, so that smaller widths appear as a point.
       const double middle = 0.5 * (y.low + y.high);
       const double least = 10.0 * card.options.recording.recurrence_tolerance;
@@ -253,7 +253,7 @@ std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder,
     constexpr int height_each = 620;
     const figures::FigureCanvas canvas{
         1800, figure.panels.size() == 1 ? height_alone : height_each * static_cast<int>(figure.panels.size())};
-    const std::string words = figure.title.empty() ? title : figures::literal_text(figure.title) + ": " + title;
+    const std::string words = figure.title.empty() ? title : figures::verbatim_text(figure.title) + ": " + title;
     drawn.push_back({folder / (figure.name + ".png"),
                      sketch.draw(folder, {words, parameter_label(parameter), ""}, x.widened(edge), {}, {}, canvas)});
   }

@@ -28,12 +28,12 @@ std::string words_without_unit(const ParameterSpace& space, const Factor& factor
 }
 
 std::string row_text(const std::string& words, std::size_t longest) {
-  if (words.size() <= longest) return figures::literal_text(words);
+  if (words.size() <= longest) return figures::verbatim_text(words);
   std::size_t cut = words.rfind(' ', longest);
   if (cut == std::string::npos) cut = longest;
   const auto continues = [&](std::size_t k) { return (static_cast<unsigned char>(words[k]) & 0xC0U) == 0x80U; };
   while (cut > 0 && continues(cut)) --cut;  // between two characters of UTF-8
-  return figures::literal_text(words.substr(0, cut) + " ...");
+  return figures::verbatim_text(words.substr(0, cut) + " ...");
 }
 
 figures::FigureCanvas canvas_of_rows(std::size_t rows) {

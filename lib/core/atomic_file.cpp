@@ -262,7 +262,7 @@ void AtomicFile::commit() {
   temporary_.clear();
   listed_ = Listed();
   sync_folder(folder_of(path_));
-  tell_placed(path_);
+  report_placed(path_);
 }
 
 void AtomicFile::discard() noexcept {

@@ -38,7 +38,7 @@ class FileDescriptor {
   int descriptor_ = -1;
 };
 
-/// What to do about an errno value, to follow its message: on a lack of room; else empty.
+/// Advice for an errno value, as the end of its message: for a lack of space; else empty.
 [[nodiscard]] std::string_view advice_on(int error);
 
 /// @throws OutputError always: "PATH: cannot ACTION: REASON", the reason from the errno value `error`, and what to do
@@ -59,7 +59,7 @@ void write_without_waiting(int descriptor, std::string_view bytes) noexcept;
 /// @throws OutputError when not all bytes can be written (disk full included)
 void write_at(int descriptor, std::string_view bytes, std::size_t offset, const std::filesystem::path& path);
 
-/// @returns bytes read: less than asked for only at the file's end
+/// @returns bytes read: fewer than requested only at the file's end
 /// @throws OutputError when reading fails
 std::size_t read_at(int descriptor, const std::filesystem::path& path, std::size_t offset, char* bytes,
                     std::size_t length);
@@ -112,7 +112,7 @@ class AtomicFile {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// Where it stands until commit(), for a library that writes by name; empty afterwards.
+  /// Path of the file until commit(), for a library that writes by name; empty afterwards.
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
  private:

@@ -22,7 +22,7 @@ namespace {
 
 using Eigen::Index;
 
-// Of a square matrix there is nothing for a preconditioner to do.
+// A square matrix needs no preconditioner.
 using RealSvd = Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner>;
 using ComplexSvd = Eigen::JacobiSVD<Eigen::MatrixXcd, Eigen::NoQRPreconditioner>;
 

@@ -16,7 +16,7 @@ namespace epicyclic {
 /// x with A x = b in the sense of least squares, of least norm where A is singular (complete orthogonal decomposition).
 [[nodiscard]] Eigen::VectorXd least_norm_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
-/// x with A x = b, A regular (LU with partial pivoting). Of a singular A it is not finite or has no meaning.
+/// x with A x = b, A regular (LU with partial pivoting). For a singular A the result is not finite or undefined.
 [[nodiscard]] Eigen::VectorXd solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 /// Eigenvalues of a general matrix, in no particular order; not numbers if the iteration does not converge.

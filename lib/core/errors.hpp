@@ -1,8 +1,8 @@
 // Errors that the library throws. Non-convergence is never one of them: it is a result (see integrate/flow.hpp).
 //
 //   InputError   what the user wrote is wrong: a value out of range, supports that do not fit the boundary
-//   DomainError  a formula was asked outside its domain: a negative approach, a contact off the path
-//   SolverError  a call into an external library failed: carries call, flag and mesh phase
+//   DomainError  a formula was used outside its domain: a negative approach, a contact off the path
+//   SolverError  a call into an external library failed: has the call, its flag and the mesh phase
 //   OutputError  the machine could not write or read a file; what was written before stays valid
 #pragma once
 

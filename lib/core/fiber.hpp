@@ -1,12 +1,12 @@
-// Functions that take turns on one thread, each on a stack of its own: where one waits another goes on.
+// Functions that alternate on one thread, each on a stack of its own: while one waits, another runs.
 //
-// A fiber runs from resume() until it suspends itself or ends. So an algorithm that asks for one evolution after
+// A fiber runs from resume() until it suspends itself or ends. So an algorithm that requests one evolution after
 // another is written as if it were alone, and many of them keep the lanes of an integrator busy
 // [integrate/lanes/lane_pool.hpp].
 //
 // Limits: a fiber stays on the thread that made it; its stack has 1 MiB, behind a page that cannot be touched, so that
 // what outgrows it ends the program instead of spoiling another one's memory. Contexts are those of POSIX (ucontext.h);
-// address and thread sanitizer are told of each switch.
+// address and thread sanitizer get a call at each switch.
 #pragma once
 
 #include <functional>

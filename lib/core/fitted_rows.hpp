@@ -1,13 +1,13 @@
-// Rows of a known function, as many as an error asks for.
+// Rows of a known function, as many as an error bound requires.
 //
-// The rows are doubled until smooth interpolation [core/interpolation.hpp] of half of them meets the other half: the
-// error of all of them is then a share of that, told by its order,
+// The rows are doubled until smooth interpolation [core/interpolation.hpp] of half of them agrees with the other half.
+// The error of all of them is then a share of that difference, by its order,
 //
-//   even pieces and all octaves but the first of graded ones   e(h) <= e(2h) / 8    (fourth order: 16)
+//   even grids and all octaves but the first of graded ones   e(h) <= e(2h) / 8    (fourth order: 16)
 //   the first octave, beside a singular point                  e(h) <= e(2h)        (x^p, p > 1)
 //
-// Limits: analytic functions, but for a point beside which they are as x^p, p > 1, at one end of the piece. Where the
-// most rows are not enough, the error that they reach is told.
+// Limits: analytic functions, except for a point beside which they are as x^p, p > 1, at one end of the interval. If
+// the largest number of rows is not enough, the result has the error that it reaches.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace epicyclic {
 
 enum class SingularEnd { none, start, end };
 
-/// K functions on one piece.
+/// K functions on one interval.
 template <std::size_t K>
 struct FittedRows {
   IntervalGrid grid;
@@ -32,14 +32,14 @@ struct FittedRows {
   double error = 0;                         ///< greatest, of any of the functions
 };
 
-/// @param f  std::array<double, K> (double way): the functions at a share of the way along the piece
-/// @param half  rows that are taken over where they stand on every second node
+/// @param f  std::array<double, K> (double fraction): the functions at a fraction of the interval
+/// @param half  rows at every second node, which are not computed again
 template <std::size_t K, class F>
 [[nodiscard]] FittedRows<K> rows_on(const IntervalGrid& grid, const F& f, const FittedRows<K>* half = nullptr) {
   const bool nested = half != nullptr && grid.can_be_halved() && grid.halved() == half->grid;
   FittedRows<K> r{grid, {}, 0.0};
   for (std::size_t k = 0; k <= grid.count; ++k)
-    r.rows.push_back(nested && k % 2 == 0 ? half->rows[k / 2] : f(grid.way(k)));
+    r.rows.push_back(nested && k % 2 == 0 ? half->rows[k / 2] : f(grid.fraction(k)));
   return r;
 }
 
@@ -70,7 +70,7 @@ template <std::size_t K>
 }  // namespace detail
 
 /// @param tolerance  of the greatest error
-/// @param features   intervals of equal width that the piece needs at least, so that no feature is between the rows
+/// @param features   intervals of equal width that the interval needs at least, so that no feature is between the rows
 template <std::size_t K, class F>
 [[nodiscard]] FittedRows<K> fit_rows(const F& f, double tolerance, SingularEnd singular = SingularEnd::none,
                                      double features = 0.0) {
@@ -78,7 +78,7 @@ template <std::size_t K, class F>
   constexpr double at_most = 1 << 17;
   const auto at_least = std::bit_ceil(static_cast<std::size_t>(std::ceil(std::min(features, at_most))));
   const std::size_t most = std::max<std::size_t>(graded ? 128 : 2048, at_least);
-  constexpr int most_octaves = 32;  // the shortest intervals are then 1e-11 of the piece
+  constexpr int most_octaves = 32;  // the shortest intervals are then 1e-11 of the whole
   std::size_t intervals = std::max<std::size_t>(graded ? 8 : 16, at_least);
   int octaves = 8;
   FittedRows<K> r;

@@ -12,7 +12,7 @@ namespace epicyclic {
 
 /// Kernels of lanes for AVX2 and AVX-512 are compiled this many times, the same text into different memory: on some
 /// machines two cores that run one and the same memory slow each other down (tests/bench/scaling measures it). Threads
-/// and ranks side by side take one each, in turn. Results are the same bits.
+/// and ranks side by side use one copy each, cyclically. Results are the same bits.
 inline constexpr std::size_t kernel_copies = 2;
 
 /// Does this machine run what was compiled for it, within the limit?

@@ -34,7 +34,7 @@ double steffen_slope(Numbers x, Numbers y, std::size_t k) {
   return std::copysign(2.0 * std::min({std::abs(left), std::abs(right), 0.5 * std::abs(p)}), left);
 }
 
-/// Of the polynomial through the five rows nearest to k, fewer if there are not as many.
+/// Slope of the polynomial through the five rows nearest to k, or through all rows if there are fewer.
 double lagrange_slope(Numbers x, Numbers y, std::size_t k) {
   const std::size_t width = std::min<std::size_t>(5, x.size());
   const std::size_t first = std::min(k < width / 2 ? 0 : k - width / 2, x.size() - width);

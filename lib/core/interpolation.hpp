@@ -23,7 +23,7 @@ enum class Interpolation { linear, monotone, smooth };
 using CubicCoefficients = std::array<double, 4>;
 
 /// One cubic for each interval.
-/// @param first, count  of the intervals that are wanted: rows beyond them tell slopes only
+/// @param first, count  of the intervals in the result: rows beyond them only determine slopes
 /// @throws InputError when rows do not rise
 [[nodiscard]] std::vector<CubicCoefficients> cubics_through(Interpolation how, std::span<const double> x,
                                                             std::span<const double> y, std::size_t first,

@@ -1,14 +1,14 @@
-// Intervals of a piece of a curve that are found without a search: those that floating-point numbers make.
+// Intervals of a smooth part of a curve that are found without a search, from the bits of floating-point numbers.
 //
-//   v = offset + scale u ,  u in [0, 1] the way along the piece from its start, or from its end if `from_end`
+//   v = offset + scale u ,  u in [0, 1] the fraction from the start of the part, or from its end if `from_end`
 //   even, n intervals:                   offset = 2^j >= n ,  scale = n        : all are 1 long in v
 //   graded, m octaves of 2^p intervals:  offset = 2^-m ,      scale = 1 - 2^-m : those of each octave are twice as long
 //                                        as those of the octave before, and the first 2^(1-m-p) of the last ones
 //
-// Either way the numbers of one interval share their exponent and the first bits of their fraction: which interval it
-// is follows from a difference of bit patterns and a shift, on lanes as on one number. A graded piece resolves a
-// singular point at its fine end, where the intervals of an even one would have to be as short everywhere. Limits:
-// finite v; beyond the piece the outermost interval is told.
+// In both cases the numbers of one interval share their exponent and the first bits of their fraction. The number of
+// the interval follows from a difference of bit patterns and a shift, on lanes as on one number. A graded grid resolves
+// a singular point at its fine end. An even grid would need intervals as short everywhere. Limits: finite v; beyond the
+// part the result is the outermost interval.
 #pragma once
 
 #include <bit>
@@ -71,8 +71,8 @@ struct IntervalGrid {
     return static_cast<std::size_t>((std::bit_cast<std::uint64_t>(within) - first_bits()) >> shift);
   }
 
-  /// How far along the piece, from its start, node k is: 0 to 1, falling with k if `from_end`.
-  [[nodiscard]] double way(std::size_t k) const {
+  /// Fraction of the part from its start to node k: 0 to 1, falling with k if `from_end`.
+  [[nodiscard]] double fraction(std::size_t k) const {
     const double u = k == count ? 1.0 : (node(k) - offset) / scale;
     return from_end ? 1.0 - u : u;
   }

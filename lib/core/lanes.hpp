@@ -146,7 +146,7 @@ struct alignas(8 * W) Lanes {
     constexpr double part_3 = 2.0 * 2.69515142907905952645e-15;
     const Pack shifted = x.pack * two_by_pi + no_fraction;
     const Pack quarters = shifted - no_fraction;
-    const Bits quarter = std::bit_cast<Bits>(shifted);  // its last bits count the quarter turns
+    const Bits quarter = std::bit_cast<Bits>(shifted);  // its last bits count the quarter periods
     const Pack r = ((x.pack - quarters * part_1) - quarters * part_2) - quarters * part_3;
     const Pack z = r * r;
     const Pack sine =

@@ -133,7 +133,7 @@ class PeriodicSchur {
     if (p_ == 1) {
       a_[0].applyOnTheLeft(low, low + 1, r.adjoint());
     } else {
-      // From the last factor's rows back to the first one's, each made triangular again by its columns.
+      // From the last factor's rows to the first one's: column rotations make each factor triangular again.
       a_[p_ - 1].applyOnTheLeft(low, low + 1, r.adjoint());
       for (std::size_t i = p_ - 1; i >= 1; --i) {
         Rotation c;
@@ -206,7 +206,7 @@ FactorsOf<Matrix> perturbed(const FactorsOf<Matrix>& m, double part, int draw) {
   FactorsOf<Matrix> changed = m;
   std::uint64_t number = 0;
   for (Matrix& f : changed.factors) {
-    // Of uniform entries in (-a, a) the norm is a n / sqrt(3).
+    // The norm of a matrix with uniform entries in (-a, a) is a n / sqrt(3).
     const double size = part * f.norm() * std::sqrt(3.0) / static_cast<double>(f.rows());
     for (auto& x : f.reshaped()) x += size * (2.0 * random_uniform(static_cast<std::uint64_t>(draw), ++number) - 1.0);
   }

@@ -31,7 +31,7 @@ PlacedFiles::~PlacedFiles() {
   std::erase(registry().all, this);
 }
 
-void tell_placed(const std::filesystem::path& path, Placed how) {
+void report_placed(const std::filesystem::path& path, Placed how) {
   // Shared: listeners read files, and those of other threads need not wait for that.
   const std::shared_lock lock(registry().mutex);
   for (const PlacedFiles* one : registry().all) one->listener_(path, how);

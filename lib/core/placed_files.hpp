@@ -18,16 +18,16 @@ class PlacedFiles {
   explicit PlacedFiles(Listener listener);
   PlacedFiles(const PlacedFiles&) = delete;
   PlacedFiles& operator=(const PlacedFiles&) = delete;
-  /// Waits for calls under way.
+  /// Waits for running calls.
   ~PlacedFiles();
 
  private:
-  friend void tell_placed(const std::filesystem::path& path, Placed how);
+  friend void report_placed(const std::filesystem::path& path, Placed how);
   Listener listener_;
 };
 
 /// For those who put files in place.
 /// @throws what a listener throws
-void tell_placed(const std::filesystem::path& path, Placed how = Placed::there);
+void report_placed(const std::filesystem::path& path, Placed how = Placed::there);
 
 }  // namespace epicyclic

@@ -3,7 +3,7 @@
 //   integral_a^b f dx = sum over panels of (h / 2) sum_k w_k f(x_k) ,  h = (b - a) / panels
 //
 // Order: the error of a smooth f falls as h^(2n) with n points a panel (a test measures it). Nodes and weights are
-// GSL's (gsl_integration_glfixed). Limits: f must be smooth within [a, b]; integrate each smooth piece by itself.
+// GSL's (gsl_integration_glfixed). Limits: f must be smooth within [a, b]; integrate each smooth part by itself.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ class GaussLegendre {
   std::vector<double> nodes_, weights_;
 };
 
-/// 16 points: rounding error on every smooth piece of this project with a few panels.
+/// 16 points: rounding error on every smooth part in this project with a few panels.
 [[nodiscard]] const GaussLegendre& gauss_legendre_16();
 
 }  // namespace epicyclic

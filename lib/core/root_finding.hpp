@@ -17,7 +17,7 @@ namespace epicyclic {
 /// @param f       nothing where it has no value
 /// @param beside  a second place to begin with
 /// @param span    of places: the root is nearer than it, and is resolved to 1e-11 of it
-/// @returns the place that f was last looked at; nothing if there was no value, or the root is not near
+/// @returns the place of the last value of f; nothing if there was no value, or the root is not near
 [[nodiscard]] std::optional<double> secant_root(const std::function<std::optional<double>(double)>& f, double beside,
                                                 double span);
 

@@ -20,11 +20,11 @@ namespace epicyclic {
 /// Surfaces in state space where the vector field is not smooth: each is crossed when its value changes sign.
 struct SwitchingSurfaces {
   std::size_t count = 0;
-  /// Values at a state, and d/ds of them along the motion through it, `count` numbers each.
+  /// Values at a state, and d/ds of them along the trajectory through it, `count` numbers each.
   std::function<void(double s, const double* y, double* values, double* rates)> evaluate;
 };
 
-/// What a field was made of; lanes look for the kind that they know by dynamic_cast.
+/// The source of a field; lanes find the type that they know by dynamic_cast.
 struct Origin {
   Origin() = default;
   Origin(const Origin&) = delete;
@@ -67,7 +67,7 @@ struct VectorField {
 };
 
 /// The period of a field that has one.
-/// @throws DomainError when g does not depend on s, so that there is no section to look at
+/// @throws DomainError if g does not depend on s, so that there is no section
 [[nodiscard]] inline double period_of(const VectorField& field) {
   if (!(field.period > 0.0)) throw DomainError("a period of the field is needed, and it has none");
   return field.period;

@@ -110,7 +110,7 @@ std::string plot_dots(std::string_view stem, std::size_t index, std::string_view
 /// In parts of the range: half a step of the grid on each side, so that the dots of its ends are not on the frame.
 double grid_margin(std::size_t points) { return points > 1 ? 0.5 / static_cast<double>(points - 1) : 0.0; }
 
-/// Dots as small as those of the diagram could not be told apart in a legend.
+/// Dots as small as those of the diagram would be hard to distinguish in a legend.
 std::string legend_entry(std::string_view colour, std::string_view label) {
   return fmt::format(", \\\n  keyentry with points pointtype 7 pointsize mark linecolor '{}' title {}", colour,
                      gnuplot_quoted(portable_text(label)));

@@ -21,14 +21,14 @@ namespace epicyclic::figures {
 struct SectionPoint {
   double x = 0;
   std::vector<double> section;  ///< empty where there are none
-  bool apart = false;           ///< its values are not what the others are, and look otherwise
+  bool apart = false;           ///< its values differ in kind from the others, and have another style
 };
 
 /// The points of one sweep, in one direction, in any order.
 struct BifurcationSeries {
   std::string label;  ///< for the legend, as "increasing {/Symbol W}"
   std::size_t count = 0;
-  /// The i-th, nothing if it is not to be drawn. Asked twice for each: not all need fit into memory.
+  /// The i-th, nothing if it is not to be drawn. Called twice for each: not all need fit into memory.
   std::function<std::optional<SectionPoint>(std::size_t i)> at;
 };
 
@@ -45,7 +45,7 @@ FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::strin
                                  const std::vector<FigureMarker>& markers = {}, Pictures which = Pictures::both,
                                  const std::string& apart = {});
 
-/// What a point belongs to, with its place in the legend.
+/// The class of a point, with its place in the legend.
 struct PointClass {
   std::string label;
   std::string colour;           ///< as "#12285c"

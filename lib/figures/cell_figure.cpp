@@ -33,8 +33,8 @@ std::vector<double> edges_of(const std::vector<double>& centres) {
   return edges;
 }
 
-/// Writes rectangles of cells that look alike, one a line: x from, x to, y from, y to, and what `value` says; none
-/// where that is empty.
+/// Writes rectangles of equal cells, one a line: x from, x to, y from, y to, and the text of `value`; none if that is
+/// empty.
 template <class Alike, class Value>
 void write_rectangles(AtomicFile& file, const CellGrid& grid, Alike alike, Value value) {
   constexpr std::size_t block = std::size_t{1} << 20;
@@ -109,14 +109,14 @@ FigureRange value_range(const std::vector<double>& cells) {
   for (const double v : cells) range.include(v);
   if (range.empty()) return range;
   range.include(0.0);
-  // A side that hardly leaves zero is not to look as strong as the other.
+  // A side with values near zero must not have colours as strong as the other side.
   constexpr double least_side = 0.1;
   range.include(-least_side * range.high);
   range.include(-least_side * range.low);
   return range.widened(0);
 }
 
-/// After Brewer's RdBu, which colour-blind eyes tell apart; white is zero.
+/// After Brewer's RdBu, which colour-blind readers can distinguish; white is zero.
 std::string palette_over(const FigureRange& range) {
   std::string palette;
   const auto colour = [&](double at, std::string_view name) {
@@ -232,7 +232,7 @@ FigureOutcome stepped_figure(const std::filesystem::path& folder, std::string_vi
     write_rectangles(
         file, grid, [&](std::size_t a, std::size_t b) { return written(a) == written(b); }, written);
   };
-  // After Brewer's YlGnBu, whose lightness falls all the way: it can be read in grey, and by colour-blind eyes.
+  // After Brewer's YlGnBu, whose lightness falls monotonically: it is readable in grey, and for colour-blind readers.
   const std::string extra =
       overlap(grid) +
       fmt::format(

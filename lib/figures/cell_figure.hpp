@@ -1,7 +1,7 @@
 // Figures of a plane of cells, each cell as it was computed: nothing is interpolated between them.
 //
-// A cell reaches half way to its neighbours; the outer ones are as wide as the others. Cells of one colour that stand
-// side by side are one rectangle.
+// A cell reaches to the middle between it and its neighbours; the outer ones are as wide as the others. Cells of one
+// colour that stand side by side are one rectangle.
 #pragma once
 
 #include <cstddef>

@@ -68,7 +68,7 @@ std::string text_of(double value) {
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-/// What gnuplot said, as one line without its picture of where in the line the error is.
+/// The message of gnuplot as one line, without the marks below the place of the error.
 std::string one_line(std::string_view complaint) {
   std::string line;
   for (const char character : complaint) {
@@ -90,11 +90,11 @@ std::chrono::milliseconds limit_for(fs::path script) {
   return std::max<std::chrono::milliseconds>(last_limit, limit / (1 << std::min(most_halves, hung_in_a_row.load())));
 }
 
-/// What a child process has said, its last words at least, and how it ended.
+/// Output of a child process, at least its last words, and how it ended.
 struct Ended {
   std::string words;
   std::optional<int> status;  ///< of waitpid; nothing: it had to be ended
-  int error = 0;              ///< of a child that cannot be asked
+  int error = 0;              ///< of a child whose state cannot be read
 };
 
 /// Reads once from a pipe, when there is something within the time.
@@ -114,7 +114,7 @@ bool read_some(int pipe, int milliseconds, std::string& words) {
 /// Listens to a child, the leader of its own process group, until it ends or the time is over. Nothing of the group is
 /// left behind, not even a child's child that still holds the pipe.
 Ended listen_to(pid_t child, int pipe, std::chrono::milliseconds limit) {
-  constexpr int look_ms = 20;
+  constexpr int poll_ms = 20;
   constexpr std::chrono::milliseconds moment{1};
   const Clock::time_point deadline = Clock::now() + limit;
   Ended result;
@@ -129,7 +129,7 @@ Ended listen_to(pid_t child, int pipe, std::chrono::milliseconds limit) {
   bool ended = false;
   while (!(ended = has_ended()) && result.error == 0 && Clock::now() < deadline) {
     if (listens)
-      listens = read_some(pipe, look_ms, result.words);
+      listens = read_some(pipe, poll_ms, result.words);
     else
       std::this_thread::sleep_for(moment);
   }
@@ -321,7 +321,7 @@ bool has_picture(char32_t point) {
 }
 
 /// Embeddings, overrides and isolates of directions, which would reach into the words beside a name.
-bool turns_direction(char32_t point) {
+bool is_direction_control(char32_t point) {
   return between(point, 0x202a, 0x202e) || between(point, 0x2066, 0x2069) || between(point, 0x200e, 0x200f) ||
          point == 0x061c;
 }
@@ -332,8 +332,7 @@ bool from_the_right(char32_t point) {
          between(point, 0x10800, 0x10fff) || between(point, 0x1e800, 0x1efff);
 }
 
-/// Not in the font that figures ask for, as far as one can say without looking: beyond Latin, Greek, Cyrillic and
-/// signs.
+/// Probably not in the font of the figures: beyond Latin, Greek, Cyrillic and signs.
 bool is_rare(char32_t point) {
   return point >= 0x0530 && !between(point, 0x1e00, 0x23ff) && !between(point, 0x2500, 0x27bf) && point != no_character;
 }
@@ -350,7 +349,7 @@ double width_of(char32_t point) {
 }
 
 /// A character of a name in "enhanced" notation.
-void append_literal(std::string& text, char32_t point) {
+void append_verbatim(std::string& text, char32_t point) {
   constexpr std::u32string_view markup = U"_^{}@&~";
   if (point == U'\\') {
     // By itself: pngcairo shows the escape of a backslash, and both files make a letter of one before "U+0041".
@@ -413,8 +412,8 @@ struct Head {
   double height = 0;     ///< from the upper edge of the canvas to the frame [pixels]
 };
 
-/// The title as an expression. Where no font has a character, pngcairo blackens the figure with a sign for it as large
-/// as that: there the PNG file, which cannot do better, shows no_character.
+/// The title as an expression. If no font has a character, pngcairo covers the figure with a sign for it. In that case
+/// the PNG file shows no_character instead.
 std::string title_expression(const std::string& title) {
   std::vector<char32_t> points = code_points(title);
   std::string rare;
@@ -433,7 +432,7 @@ std::string title_expression(const std::string& title) {
       png, rare, gnuplot_quoted(plain), gnuplot_quoted(title));
 }
 
-/// Of names on edge below the frame, beyond the height of a number [pixels].
+/// Height of names on edge below the frame, beyond the height of a number [pixels].
 double room_of_names(const FigureText& text) {
   double longest = 0.0;
   for (const auto& [at, name] : text.x_names) longest = std::max(longest, text_width(name));
@@ -457,14 +456,14 @@ std::string second_abscissa_of(const FigureText& text, const FigureRange& x) {
       gnuplot_quoted(portable_text(text.above->label)));
 }
 
-/// Of a text with gnuplot's markup, the characters that are drawn.
+/// The characters of a text with gnuplot's markup that are drawn.
 std::u32string seen_characters(std::string_view text) {
   std::u32string seen;
-  bool literal = false;
+  bool escaped = false;
   for (const char32_t point : code_points(text)) {
     const bool markup =
-        !literal && (point == U'\\' || point == U'{' || point == U'}' || point == U'_' || point == U'^');
-    literal = !literal && point == U'\\';
+        !escaped && (point == U'\\' || point == U'{' || point == U'}' || point == U'_' || point == U'^');
+    escaped = !escaped && point == U'\\';
     if (!markup) seen += point;
   }
   return seen;
@@ -632,7 +631,7 @@ FigureOutcome run_gnuplot(const fs::path& script, Pictures which, std::optional<
 }
 
 std::string gnuplot_quoted(std::string_view text) {
-  // In single quotes nothing has a meaning, but gnuplot loses its way between two apostrophes side by side.
+  // In single quotes no character has a meaning, but gnuplot misreads two apostrophes side by side.
   const bool single = text.find('\'') == std::string_view::npos;
   constexpr std::string_view meaning = "\"\\`@";
   std::string quoted;
@@ -650,11 +649,11 @@ std::string gnuplot_quoted(std::string_view text) {
 
 std::string portable_text(std::string_view text) { return with_macrons(with_greek_letters(text)); }
 
-std::string literal_text(std::string_view typed) {
+std::string verbatim_text(std::string_view typed) {
   constexpr double longest = 44;  // font heights
   constexpr double kept_at_end = 14;
   std::vector<char32_t> points = code_points(typed);
-  std::erase_if(points, turns_direction);
+  std::erase_if(points, is_direction_control);
   double width = 0.0;
   for (char32_t& point : points) {
     if (!has_picture(point)) point = U' ';
@@ -669,7 +668,7 @@ std::string literal_text(std::string_view typed) {
     points.erase(first + 1, last);
   }
   std::string text;
-  for (const char32_t point : points) append_literal(text, point);
+  for (const char32_t point : points) append_verbatim(text, point);
   // The words beside a name that is written from the right stay where they are.
   constexpr std::string_view from_the_left = "\u200e";
   if (std::ranges::any_of(points, from_the_right)) text = fmt::format("{0}{1}{0}", from_the_left, text);
@@ -832,7 +831,7 @@ FigureOutcome draw_pictures(const fs::path& folder, std::string_view stem, Pictu
     if (!outcome.drawn()) {
       std::error_code ignored;
       fs::remove(path, ignored);  // a part of it
-      return tell_placed(path, Placed::undrawn);
+      return report_placed(path, Placed::undrawn);
     }
     const FileDescriptor picture = open_descriptor(path, O_RDONLY);
     if (!ends_with(picture, path, end)) {
@@ -840,7 +839,7 @@ FigureOutcome draw_pictures(const fs::path& folder, std::string_view stem, Pictu
           fmt::format("{}: gnuplot did not finish it (disk full?); make room and repeat the command", path.string()));
     }
     sync_descriptor(picture.get(), path);
-    tell_placed(path);
+    report_placed(path);
   };
   if (which == Pictures::png || which == Pictures::both) take(png, png_end);
   if (which == Pictures::svg || which == Pictures::both) take(svg, svg_end);

@@ -1,13 +1,13 @@
-// Figures by gnuplot: the process, and the look that all figures share.
+// Figures by gnuplot: the process, and the style that all figures share.
 //
 // A figure is three files that belong together, `STEM.dat` (data), `STEM.gp` (script) and what the script draws,
-// `STEM.png` and `STEM.svg`; whoever wants another look edits the script and runs `gnuplot STEM.gp` in the folder.
-// Figures are drawn after the data are safe, so that a missing gnuplot or a failing script is a result with a clear
-// text, never an exception.
+// `STEM.png` and `STEM.svg`; for another style, edit the script and run `gnuplot STEM.gp` in the folder. Figures are
+// drawn after the data are safe, so that a missing gnuplot or a failing script is a result with a clear text, never an
+// exception.
 //
 // Texts are UTF-8 in gnuplot's "enhanced" notation (x_{sp}, 10^{-3}). Greek letters and bars are best written as they
-// are (Ω, δ̄); {/Symbol W} and ~{x}{.6-} are turned into them, because gnuplot's SVG files show these wrongly. What
-// somebody has typed becomes such a text by literal_text().
+// are (Ω, δ̄); {/Symbol W} and ~{x}{.6-} are replaced by them, because gnuplot's SVG files show these wrongly.
+// verbatim_text() converts a user's text to such a text.
 #pragma once
 
 #include <chrono>
@@ -28,7 +28,7 @@ namespace epicyclic::figures {
 /// What became of a figure. `message` is empty if it was drawn, else it says in one line why not.
 struct FigureOutcome {
   std::string message;
-  bool empty = false;  ///< the data have nothing to draw, as a motion without vibration has no spectrum: no failure
+  bool empty = false;  ///< the data have nothing to draw, as the spectrum of a response without vibration: no failure
   [[nodiscard]] bool drawn() const { return message.empty(); }
   [[nodiscard]] bool failed() const { return !drawn() && !empty; }
 };
@@ -99,7 +99,7 @@ struct FigurePanel {
 /// Which of its files a script draws. Drawn apart, they can be drawn side by side.
 enum class Pictures { none, png, svg, both, pdf };
 
-/// Is there a program of that name, where run_gnuplot looks for it?
+/// Is there a program of that name, where run_gnuplot searches for it?
 bool gnuplot_is_installed();
 
 /// Runs gnuplot on the script, without a shell, in the script's folder, in the C locale and without the user's own
@@ -113,10 +113,10 @@ FigureOutcome run_gnuplot(const std::filesystem::path& script, Pictures which = 
 /// The text as a gnuplot string, in which gnuplot neither expands nor executes anything.
 std::string gnuplot_quoted(std::string_view text);
 
-/// What somebody has typed, as a text that shows it as it was typed: no character means anything. What has no picture
-/// (line breaks, control characters) is a blank, marks that turn the direction of writing are left out, and of a text
-/// that is longer than a line the middle is.
-std::string literal_text(std::string_view typed);
+/// A user's text, as a text that shows it as it was typed: no character has a meaning. A character without a picture
+/// (line break, control character) becomes a blank. Marks that change the direction of writing are left out. A text
+/// longer than a line loses its middle.
+std::string verbatim_text(std::string_view typed);
 
 /// Estimated width of a text in "enhanced" notation, rather too large than too small, in heights of its font.
 double text_width(std::string_view text);

@@ -78,12 +78,12 @@ FigureOutcome line_figure(const std::filesystem::path& folder, std::string_view 
     const std::string_view dash = dashes[k / colours.size() % dashes.size()];
     const std::string line = fmt::format("linewidth 2 dashtype {} linecolor '{}'", dash, colour);
     const std::string mark = fmt::format("pointtype {} pointsize mark", marks[k % marks.size()]);
-    const std::string look = curve.points   ? fmt::format("points {} linecolor '{}'", mark, colour)
-                             : curve.marked ? fmt::format("linespoints {} {}", mark, line)
-                                            : "lines " + line;
+    const std::string style = curve.points   ? fmt::format("points {} linecolor '{}'", mark, colour)
+                              : curve.marked ? fmt::format("linespoints {} {}", mark, line)
+                                             : "lines " + line;
     points = points || curve.points || curve.marked;
     if (!curve.label.empty()) legend.push_back(curve.label);
-    plot += fmt::format("{}'{}.dat' index {} using 1:2 with {} {}", k > 0 ? ", \\\n  " : "", stem, k, look,
+    plot += fmt::format("{}'{}.dat' index {} using 1:2 with {} {}", k > 0 ? ", \\\n  " : "", stem, k, style,
                         curve.label.empty() ? "notitle" : "title " + gnuplot_quoted(portable_text(curve.label)));
   }
   if (x_axis.range.empty()) return nothing_to_draw("there is no finite point to draw");

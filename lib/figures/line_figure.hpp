@@ -1,5 +1,5 @@
 // Line figures: several curves over one abscissa (histories, spectra, stiffness over a mesh period, phase portraits),
-// in the look of figures/gnuplot.hpp.
+// in the style of figures/gnuplot.hpp.
 #pragma once
 
 #include <filesystem>

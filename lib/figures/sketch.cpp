@@ -37,23 +37,23 @@ FigureOutcome Sketch::draw(const std::filesystem::path& folder, const FigureText
                      which);
 }
 
-void Sketch::end_set(bool gap, std::size_t columns, std::string_view look, std::string_view title) {
+void Sketch::end_set(bool gap, std::size_t columns, std::string_view style, std::string_view title) {
   data_ += gap ? "\n" : "\n\n";
   std::string using_columns = "1";
   for (std::size_t k = 2; k <= std::max<std::size_t>(2, columns); ++k) using_columns += fmt::format(":{}", k);
-  clause(fmt::format("'{}.dat' index {} using {}", stem_, sets_++, using_columns), look, title);
+  clause(fmt::format("'{}.dat' index {} using {}", stem_, sets_++, using_columns), style, title);
 }
 
-void Sketch::end_letters(std::string_view text, std::string_view look) {
+void Sketch::end_letters(std::string_view text, std::string_view style) {
   data_ += "\n\n";
   clause(fmt::format("'{}.dat' index {} using 1:2:({})", stem_, sets_++, gnuplot_quoted(text)),
-         fmt::format("labels {}", look), {});
+         fmt::format("labels {}", style), {});
 }
 
-void Sketch::clause(std::string_view source, std::string_view look, std::string_view title) {
+void Sketch::clause(std::string_view source, std::string_view style, std::string_view title) {
   std::string& plot = panels_.empty() ? plot_ : panels_.back().plot;
   if (!plot.empty()) plot += ", \\\n  ";
-  plot += fmt::format("{} with {} {}", source, look,
+  plot += fmt::format("{} with {} {}", source, style,
                       title.empty() ? "notitle" : "title " + gnuplot_quoted(portable_text(title)));
   if (!title.empty()) legend_.emplace_back(title);
 }

@@ -1,5 +1,5 @@
-// A figure put together piece by piece: data sets, what each looks like, commands between; in the look of
-// figures/gnuplot.hpp. For figures that figures/line_figure.hpp and figures/bifurcation_figure.hpp cannot draw.
+// A figure from single parts: data sets, the style of each one, commands between; in the style of figures/gnuplot.hpp.
+// For figures that figures/line_figure.hpp and figures/bifurcation_figure.hpp cannot draw.
 #pragma once
 
 #include <algorithm>
@@ -33,12 +33,12 @@ inline constexpr std::string_view light_grey = "#b0b0b0";
 /// The shortest text of a number that reads back as the same number.
 [[nodiscard]] std::string figure_number(double value);
 
-/// Looks, as what follows "with" in a plot command.
+/// Styles, as text after "with" in a plot command.
 [[nodiscard]] std::string solid(std::string_view colour, double width = 2);
 [[nodiscard]] std::string dashed(std::string_view colour, double width, std::string_view dash);
 [[nodiscard]] std::string dots(std::string_view colour, double size, int type = 7);
 
-/// Of values that are not what the others of a figure are.
+/// For values that differ in kind from the other values of a figure.
 [[nodiscard]] inline std::string apart_dots(double size) { return dots(ink::ochre, 2.0 * size, 2); }
 
 /// The data sets of one figure, and the plot command that shows them in the order in which they were added.
@@ -49,9 +49,9 @@ class Sketch {
   [[nodiscard]] const std::string& stem() const { return stem_; }
 
   /// @param rows  of equal length; a row of NaN interrupts a line
-  /// @param look  what follows "with"
+  /// @param style  text after "with"
   template <class Rows>
-  void add(const Rows& rows, std::string_view look, std::string_view title = {}) {
+  void add(const Rows& rows, std::string_view style, std::string_view title = {}) {
     std::size_t columns = 0;
     bool gap = true;
     for (const auto& row : rows) {
@@ -61,23 +61,23 @@ class Sketch {
       gap = written == 0;
       columns = std::max(columns, written);
     }
-    if (columns > 0) end_set(gap, columns, look, title);
+    if (columns > 0) end_set(gap, columns, style, title);
   }
 
   /// A text at each of the places.
   /// @param rows  x and y
-  /// @param look  what follows "with labels"
+  /// @param style  text after "with labels"
   template <class Rows>
-  void letters(const Rows& rows, std::string_view text, std::string_view look = {}) {
+  void letters(const Rows& rows, std::string_view text, std::string_view style = {}) {
     if (rows.empty()) return;
     for (const auto& row : rows) write(row);
-    end_letters(text, look);
+    end_letters(text, style);
   }
 
   /// An entry of the legend without data.
-  void entry(std::string_view look, std::string_view title) { clause("keyentry", look, title); }
+  void entry(std::string_view style, std::string_view title) { clause("keyentry", style, title); }
 
-  /// What is added from here on stands in a frame of its own, under those before. Only the first has a legend.
+  /// Later data are in a frame of their own, below the earlier ones. Only the first frame has a legend.
   void panel(std::string y_label, const FigureRange& y) { panel(FigurePanel{std::move(y_label), y, {}}); }
   void panel(FigurePanel panel) { panels_.push_back(std::move(panel)); }
 
@@ -113,9 +113,9 @@ class Sketch {
     return columns;
   }
 
-  void end_letters(std::string_view text, std::string_view look);
-  void end_set(bool gap, std::size_t columns, std::string_view look, std::string_view title);
-  void clause(std::string_view source, std::string_view look, std::string_view title);
+  void end_letters(std::string_view text, std::string_view style);
+  void end_set(bool gap, std::size_t columns, std::string_view style, std::string_view title);
+  void clause(std::string_view source, std::string_view style, std::string_view title);
 
   std::string stem_, data_, plot_, commands_;
   std::size_t sets_ = 0;

@@ -98,8 +98,8 @@ FigureOutcome track_figure(const std::filesystem::path& folder, std::string_view
     for (std::size_t c = 0; has_apart && c < panels[p].columns.size(); ++c)
       add(fmt::format("'{}.dat' index {} using 1:{} with {} notitle", stem, series.size(), panels[p].columns[c] + 3,
                       apart_dots(size)));
-    const auto entry = [&](const std::string& look, const std::string& title) {
-      add(fmt::format("keyentry with {} title {}", look, gnuplot_quoted(portable_text(title))));
+    const auto entry = [&](const std::string& style, const std::string& title) {
+      add(fmt::format("keyentry with {} title {}", style, gnuplot_quoted(portable_text(title))));
       legend.push_back(title);
     };
     if (frames.empty()) {

@@ -20,14 +20,15 @@ struct TrackRow {
   double x = 0;
   bool joined = true;     ///< lines go through its dots
   std::vector<double> y;  ///< one that is not finite is not drawn, and interrupts
-  bool apart = false;     ///< its dots are not what the others are: no line goes through them, and they look otherwise
+  bool apart =
+      false;  ///< its dots differ in kind from the others: no line goes through them, and they have another style
 };
 
 /// Rows in the order of the parameter, up or down.
 struct TrackSeries {
   std::string label;  ///< for the legend, where there are two
   std::size_t count = 0;
-  std::function<std::optional<TrackRow>(std::size_t i)> at;  ///< nothing: not drawn; asked twice for each
+  std::function<std::optional<TrackRow>(std::size_t i)> at;  ///< nothing: not drawn; called twice for each
 };
 
 /// A frame and which of the numbers it shows.

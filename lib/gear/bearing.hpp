@@ -8,8 +8,8 @@
 // Q = 5 F / Z; Gargiulo, Machine Design 52 (1980) has the same as 0.3e6 lb/in. Without clearance, rings stiff.
 //
 // Source: Tang et al. 2020, Eq. (11), Table 3, from Palmgren's point contact (docs/theory/parameters.md, section 5;
-// 32953 when the constants are carried to all digits, 32900 as printed). Limits: d >= 0 is the elastic approach beyond
-// the clearance. Smoothness: k is C0 at d = 0 with infinite slope there, F is C1.
+// 32953 with all digits of the constants, 32900 as printed). Limits: d >= 0 is the elastic approach beyond the
+// clearance. Smoothness: k is C0 at d = 0 with infinite slope there, F is C1.
 #pragma once
 
 #include <optional>

@@ -23,7 +23,7 @@ struct ExternalGear {
   std::optional<double> root_half_angle_deg;    ///< theta_f; default that of the profile
 };
 
-/// Where the base pitch of the ring comes from when its rounded module does not fit the planet's.
+/// Source of the ring's base pitch if its rounded module does not fit the planet's.
 enum class BasePitch {
   as_given,   ///< module and pressure angle of the ring as they stand
   of_planet,  ///< the ring's module is replaced so that both base pitches agree; its pressure angle is kept

@@ -15,7 +15,7 @@ namespace epicyclic::gear {
 
 namespace {
 
-/// Share of the load that a pair carries along its path.
+/// The load of a pair along its path, as a share of the load of the mesh.
 class LoadShare {
  public:
   explicit LoadShare(const EhlFriction& e) : e_(e) {
@@ -23,34 +23,35 @@ class LoadShare {
     for (std::size_t first = 0, k = 1; k < p.size(); ++k) {
       if (k + 1 < p.size() && p[k + 1] != p[k]) continue;
       const std::size_t rows = k + 1 - first;
-      pieces_.push_back({first, k, cubics_through(e.share_interpolation, {&p[first], rows}, {&e.share[first], rows})});
+      smooth_parts_.push_back(
+          {first, k, cubics_through(e.share_interpolation, {&p[first], rows}, {&e.share[first], rows})});
       first = ++k;
     }
   }
 
   /// At a position; `inside` is one on the side that is meant.
   [[nodiscard]] double at(double position, double inside) const {
-    if (pieces_.empty()) {
+    if (smooth_parts_.empty()) {
       const double phase = inside - std::floor(inside);
       return 1.0 / std::max(1.0, std::ceil(e_.contact_ratio - phase));
     }
     const auto& p = e_.share_position;
     std::size_t k = 0;
-    while (k + 1 < pieces_.size() && inside >= p[pieces_[k + 1].first]) ++k;
-    const Piece& piece = pieces_[k];
+    while (k + 1 < smooth_parts_.size() && inside >= p[smooth_parts_[k + 1].first]) ++k;
+    const SmoothPart& part = smooth_parts_[k];
     const auto row = [&](std::size_t i) { return p.begin() + static_cast<std::ptrdiff_t>(i); };
-    const auto above = std::upper_bound(row(piece.first + 1), row(piece.last), position);
+    const auto above = std::upper_bound(row(part.first + 1), row(part.last), position);
     const auto i = static_cast<std::size_t>(above - p.begin()) - 1;
-    return epicyclic::at(piece.cubics[i - piece.first], position - p[i]);
+    return epicyclic::at(part.cubics[i - part.first], position - p[i]);
   }
 
  private:
-  struct Piece {
+  struct SmoothPart {
     std::size_t first, last;  ///< rows
     std::vector<CubicCoefficients> cubics;
   };
   const EhlFriction& e_;
-  std::vector<Piece> pieces_;
+  std::vector<SmoothPart> smooth_parts_;
 };
 
 /// Positions of rows where the share jumps or its slope changes.
@@ -61,8 +62,8 @@ std::vector<double> kinks_of_share(const EhlFriction& e) {
   const auto& x = e.share_position;
   const auto& y = e.share;
   for (std::size_t k = 1; k + 1 < x.size(); ++k) {
-    const double way = (x[k] - x[k - 1]) / (x[k + 1] - x[k - 1]);
-    if (x[k] == x[k - 1] || x[k] == x[k + 1] || std::abs(y[k - 1] + way * (y[k + 1] - y[k - 1]) - y[k]) > rounding)
+    const double fraction = (x[k] - x[k - 1]) / (x[k + 1] - x[k - 1]);
+    if (x[k] == x[k - 1] || x[k] == x[k + 1] || std::abs(y[k - 1] + fraction * (y[k + 1] - y[k - 1]) - y[k]) > rounding)
       kinks.push_back(x[k]);
   }
   return kinks;
@@ -160,9 +161,9 @@ LubricationRange lubrication_range(const EhlFriction& e, const LineOfAction& lin
 
 FrictionTable friction_table(const EhlFriction& e, const LineOfAction& line, const MeshLoad& load,
                              std::span<const IntervalGrid> grids) {
-  const PathPieces pieces = path_pieces(e.contact_ratio, e.path_start_mm, line, kinks_of_share(e));
-  if (!grids.empty() && grids.size() != pieces.size())
-    throw DomainError("a friction table of " + std::to_string(pieces.size()) + " smooth parts on grids of " +
+  const PathBreakpoints breakpoints = path_breakpoints(e.contact_ratio, e.path_start_mm, line, kinks_of_share(e));
+  if (!grids.empty() && grids.size() != breakpoints.size())
+    throw DomainError("a friction table of " + std::to_string(breakpoints.size()) + " smooth parts on grids of " +
                       std::to_string(grids.size()));
   const LoadShare shares(e);
   const double pitch = (line.pitch_arm_mm - e.path_start_mm) / line.base_pitch_mm;
@@ -173,13 +174,13 @@ FrictionTable friction_table(const EhlFriction& e, const LineOfAction& line, con
            pitch <= e.contact_ratio + resolution;
   };
   const double narrowest = narrowest_share_interval(e);
-  std::size_t piece = 0;
+  std::size_t part = 0;
   double greatest = 0.0;
-  FrictionTable table = tabulate(pieces, [&](double from, double to) {
+  FrictionTable table = tabulate(breakpoints, [&](double from, double to) {
     const double inside = 0.5 * (from + to);
     // The moments as ratios to the base radii, as large as those of the forces.
-    const auto ratios = [&](double way) {
-      const double phase = way == 1.0 ? to : from + (to - from) * way;
+    const auto ratios = [&](double fraction) {
+      const double phase = fraction == 1.0 ? to : from + (to - from) * fraction;
       std::array<double, 3> row{};
       for (int j = 0; inside + j < e.contact_ratio; ++j) {
         const double position = std::min(phase + j, e.contact_ratio);
@@ -199,8 +200,8 @@ FrictionTable friction_table(const EhlFriction& e, const LineOfAction& line, con
                                  : is_pitch_point(to) ? SingularEnd::end
                                                       : SingularEnd::none;
     FittedRows<3> fitted = grids.empty() ? fit_rows<3>(ratios, e.table_tolerance, singular, (to - from) / narrowest)
-                                         : rows_on<3>(grids[piece], ratios);
-    ++piece;
+                                         : rows_on<3>(grids[part], ratios);
+    ++part;
     for (auto& row : fitted.rows) {
       row[1] *= line.base_radius_1_mm;
       row[2] *= line.base_radius_2_mm;

@@ -54,16 +54,15 @@ struct MeshLoad {
   double base_speed_m_per_s = 0;  ///< omega_1 r_b1 = omega_2 r_b2, relative to the carrier
 };
 
-/// Each mesh of the static train carries T_D / (N r_bs); both kinds of mesh run at the sun's base speed relative to the
-/// carrier, omega_m p_b / 2 pi.
-/// @param stage  passes problems_for_motion()
+/// Each mesh of the static train transmits T_D / (N r_bs); both kinds of mesh run at the sun's base speed relative to
+/// the carrier, omega_m p_b / 2 pi.
+/// @param stage  passes problems_for_dynamics()
 [[nodiscard]] MeshLoad mean_mesh_load(const Stage& stage, double mesh_frequency);
 
 /// F / k_0: by what a mesh yields to the mean force [um].
 [[nodiscard]] double static_deflection_um(const Mesh& mesh, const MeshLoad& load);
 
-/// What both mean mesh forces load a planet's bearing with [N].
-/// @param stage  passes problems_for_motion()
+/// Load of both mean mesh forces on a planet's bearing [N].
 [[nodiscard]] double mean_planet_load(const Stage& stage, double mesh_frequency);
 
 /// The contact of the pair at a position [base pitches from the start of contact].
@@ -74,9 +73,10 @@ struct MeshLoad {
 [[nodiscard]] LubricationRange lubrication_range(const EhlFriction& ehl, const LineOfAction& line,
                                                  const MeshLoad& load);
 
-/// A(s), B_1(s), B_2(s) on the mesh's own phase, two rows at each breakpoint: as many as table_tolerance asks for,
+/// A(s), B_1(s), B_2(s) on the mesh's own phase, two rows at each breakpoint: as many as table_tolerance requires,
 /// closer towards the pitch point, beside which mu is as |SR|^1.036.
-/// @param grids  those of another such table, in place of the tolerance: the same pieces, or this is a DomainError
+/// @param grids  those of another such table, in place of the tolerance: the same smooth parts, or this is a
+///               DomainError
 [[nodiscard]] FrictionTable friction_table(const EhlFriction& ehl, const LineOfAction& line, const MeshLoad& load,
                                            std::span<const IntervalGrid> grids = {});
 

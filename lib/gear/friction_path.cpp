@@ -40,30 +40,31 @@ double path_start_mm(const CoulombFriction& friction, const LineOfAction& line) 
   return friction.path_start_mm.value_or(line.pitch_arm_mm - 0.5 * friction.contact_ratio * line.base_pitch_mm);
 }
 
-PathPieces path_pieces(double contact_ratio, double path_start_mm, const LineOfAction& line,
-                       std::span<const double> kinks) {
-  PathPieces pieces = {0.0};
-  for (const double position : kinks) pieces.push_back(position - std::floor(position));
+PathBreakpoints path_breakpoints(double contact_ratio, double path_start_mm, const LineOfAction& line,
+                                 std::span<const double> kinks) {
+  PathBreakpoints breakpoints = {0.0};
+  for (const double position : kinks) breakpoints.push_back(position - std::floor(position));
   for (int j = 0; j < static_cast<int>(std::ceil(contact_ratio)); ++j) {
-    pieces.push_back(contact_ratio - j);
-    pieces.push_back((line.pitch_arm_mm - path_start_mm) / line.base_pitch_mm - j);
+    breakpoints.push_back(contact_ratio - j);
+    breakpoints.push_back((line.pitch_arm_mm - path_start_mm) / line.base_pitch_mm - j);
   }
-  // A piece shorter than this cannot be told from rounding of the input.
+  // A part shorter than this is within the rounding of the input.
   constexpr double phase_resolution = 1e-9;
-  std::erase_if(pieces, [](double p) { return p < 0.0 || p > 1.0 - phase_resolution; });
-  std::sort(pieces.begin(), pieces.end());
-  pieces.erase(std::unique(pieces.begin(), pieces.end(), [](double a, double b) { return b - a < phase_resolution; }),
-               pieces.end());
-  return pieces;
+  std::erase_if(breakpoints, [](double p) { return p < 0.0 || p > 1.0 - phase_resolution; });
+  std::sort(breakpoints.begin(), breakpoints.end());
+  breakpoints.erase(
+      std::unique(breakpoints.begin(), breakpoints.end(), [](double a, double b) { return b - a < phase_resolution; }),
+      breakpoints.end());
+  return breakpoints;
 }
 
 FrictionTable friction_table(const CoulombFriction& friction, const LineOfAction& line) {
   const double start = path_start_mm(friction, line);
-  return tabulate(path_pieces(friction.contact_ratio, start, line), [&](double from, double to) {
+  return tabulate(path_breakpoints(friction.contact_ratio, start, line), [&](double from, double to) {
     const double inside = 0.5 * (from + to);
     // Between breakpoints A is constant and B straight.
-    return rows_on<3>(IntervalGrid::even(1), [&](double way) {
-      const double phase = way == 1.0 ? to : from + (to - from) * way;
+    return rows_on<3>(IntervalGrid::even(1), [&](double fraction) {
+      const double phase = fraction == 1.0 ? to : from + (to - from) * fraction;
       std::array<double, 3> row{};
       int pairs = 0;
       for (int j = 0; inside + j < friction.contact_ratio; ++j) {

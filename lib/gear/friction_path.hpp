@@ -47,18 +47,18 @@ struct LineOfAction {
 [[nodiscard]] LineOfAction ring_planet_line(const Stage& stage);
 
 /// Phases in [0, 1), rising, where a pair enters, leaves or passes the pitch point or one of the kinks; the first is 0.
-using PathPieces = std::vector<double>;
+using PathBreakpoints = std::vector<double>;
 /// @param kinks  positions along the path [base pitches]
-[[nodiscard]] PathPieces path_pieces(double contact_ratio, double path_start_mm, const LineOfAction& line,
-                                     std::span<const double> kinks = {});
+[[nodiscard]] PathBreakpoints path_breakpoints(double contact_ratio, double path_start_mm, const LineOfAction& line,
+                                               std::span<const double> kinks = {});
 
 /// Both sides of each breakpoint.
 ///
-/// @param rows  FittedRows<3> (double from, double to): force, moment_1 and moment_2 on the piece between
+/// @param rows  FittedRows<3> (double from, double to): force, moment_1 and moment_2 between two breakpoints
 template <class F>
-[[nodiscard]] FrictionTable tabulate(const PathPieces& pieces, F rows) {
+[[nodiscard]] FrictionTable tabulate(const PathBreakpoints& breakpoints, F rows) {
   FrictionTable table;
-  table.breakpoints = pieces;
+  table.breakpoints = breakpoints;
   table.interpolation = Interpolation::smooth;
   const auto append = [&](double phase, const std::array<double, 3>& r) {
     table.phase.push_back(phase);
@@ -66,28 +66,28 @@ template <class F>
     table.moment_driving_mm.push_back(r[1]);
     table.moment_driven_mm.push_back(r[2]);
   };
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    const bool last = p + 1 == pieces.size();
-    const double from = pieces[p];
-    const double to = last ? 1.0 : pieces[p + 1];
-    const FittedRows<3> piece = rows(from, to);
-    const IntervalGrid& grid = piece.grid;
+  for (std::size_t p = 0; p < breakpoints.size(); ++p) {
+    const bool last = p + 1 == breakpoints.size();
+    const double from = breakpoints[p];
+    const double to = last ? 1.0 : breakpoints[p + 1];
+    const FittedRows<3> fitted = rows(from, to);
+    const IntervalGrid& grid = fitted.grid;
     for (std::size_t i = 0; i <= grid.count; ++i) {
       const std::size_t k = grid.from_end ? grid.count - i : i;
       if (i < grid.count) {
-        append(i == 0 ? from : from + (to - from) * grid.way(k), piece.rows[k]);
+        append(i == 0 ? from : from + (to - from) * grid.fraction(k), fitted.rows[k]);
       } else if (!last) {
-        append(to, piece.rows[k]);
+        append(to, fitted.rows[k]);
       } else {
         // The left side of the first breakpoint, phase 0, is the end of the period.
         table.phase.insert(table.phase.begin(), 0.0);
-        table.force_ratio.insert(table.force_ratio.begin(), piece.rows[k][0]);
-        table.moment_driving_mm.insert(table.moment_driving_mm.begin(), piece.rows[k][1]);
-        table.moment_driven_mm.insert(table.moment_driven_mm.begin(), piece.rows[k][2]);
+        table.force_ratio.insert(table.force_ratio.begin(), fitted.rows[k][0]);
+        table.moment_driving_mm.insert(table.moment_driving_mm.begin(), fitted.rows[k][1]);
+        table.moment_driven_mm.insert(table.moment_driven_mm.begin(), fitted.rows[k][2]);
       }
     }
     table.grids.push_back(grid);
-    table.error = std::max(table.error, piece.error);
+    table.error = std::max(table.error, fitted.error);
   }
   return table;
 }

@@ -60,8 +60,8 @@ double lead_of_ring_mesh(const Pair& sp, const Pair& rp) {
   const Tooth& planet = sp.driven;
   const double arc =
       planet.base_radius_mm * (pi + sp.pressure_angle + rp.pressure_angle + 2.0 * planet.base_half_angle);
-  const double turns = (arc - sp.arm_2_mm(sp.start_mm) - rp.start_mm) / sp.base_pitch_mm;
-  return turns - std::floor(turns);
+  const double cycles = (arc - sp.arm_2_mm(sp.start_mm) - rp.start_mm) / sp.base_pitch_mm;
+  return cycles - std::floor(cycles);
 }
 
 /// Teeth, pairs and phases, without stiffness.
@@ -203,7 +203,7 @@ void check_accuracy(Problems& out, const GearSet& set) {
   member(ring_pointer, c.ring.accuracy_grade, set.ring, set.ring_planet.contact_ratio());
 }
 
-/// Tells each member whose data make no tooth.
+/// Reports each member whose data make no tooth.
 bool each_tooth_exists(Problems& out, const Catalogue& c) {
   const bool sun = tried(out, sun_pointer, [&] { (void)external_tooth(c.sun.data); });
   const bool planet = tried(out, planet_pointer, [&] { (void)external_tooth(c.planet.data); });
@@ -361,15 +361,15 @@ std::vector<std::string> catalogue_problems(const Stage& stage) {
 }
 
 std::vector<PlanetPhases> planet_phases(const GearSet& set) {
-  const auto wrapped = [](double turns) {
+  const auto wrapped = [](double cycles) {
     constexpr double resolution = 1e-11;
-    const double w = turns - std::floor(turns);
+    const double w = cycles - std::floor(cycles);
     return w > 1.0 - resolution ? 0.0 : w;
   };
   std::vector<PlanetPhases> phases;
   for (const double angle : set.angles_deg) {
-    const double turn = (angle - set.angles_deg.front()) / 360.0;
-    phases.push_back({wrapped(-set.sun.teeth * turn), wrapped(set.ring.teeth * turn + set.ring_mesh_lead)});
+    const double revolution = (angle - set.angles_deg.front()) / 360.0;
+    phases.push_back({wrapped(-set.sun.teeth * revolution), wrapped(set.ring.teeth * revolution + set.ring_mesh_lead)});
   }
   return phases;
 }
@@ -395,18 +395,19 @@ StiffnessCurve stiffness_curve(const MeshedPair& mesh, double tolerance) {
     const bool last = k + 1 == breaks.size();
     const double from = breaks[k];
     const double to = last ? 1.0 : breaks[k + 1];
-    const auto phase = [&](double way) { return way == 1.0 ? to : from + (to - from) * way; };
-    const auto piece = fit_rows<1>(
-        [&](double way) { return std::array{mesh.stiffness(phase(way), 0.5 * (from + to))}; }, tolerance * mean);
-    for (std::size_t i = 0; i < piece.grid.count + (last ? 0 : 1); ++i) {
-      curve.phase.push_back(phase(piece.grid.way(i)));
-      curve.stiffness_N_per_m.push_back(piece.rows[i][0]);
+    const auto phase = [&](double fraction) { return fraction == 1.0 ? to : from + (to - from) * fraction; };
+    const auto fitted =
+        fit_rows<1>([&](double fraction) { return std::array{mesh.stiffness(phase(fraction), 0.5 * (from + to))}; },
+                    tolerance * mean);
+    for (std::size_t i = 0; i < fitted.grid.count + (last ? 0 : 1); ++i) {
+      curve.phase.push_back(phase(fitted.grid.fraction(i)));
+      curve.stiffness_N_per_m.push_back(fitted.rows[i][0]);
     }
-    curve.error = std::max(*curve.error, piece.error / mean);
+    curve.error = std::max(*curve.error, fitted.error / mean);
     if (!last) continue;
     // The left side of the first breakpoint, phase 0, is the end of the period.
     curve.phase.insert(curve.phase.begin(), 0.0);
-    curve.stiffness_N_per_m.insert(curve.stiffness_N_per_m.begin(), piece.rows.back()[0]);
+    curve.stiffness_N_per_m.insert(curve.stiffness_N_per_m.begin(), fitted.rows.back()[0]);
   }
   return curve;
 }
@@ -431,15 +432,15 @@ EhlFriction ehl_of(const MeshedPair& mesh, const Lubrication& lubrication) {
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
     const double from = breaks[k];
     const double to = breaks[k + 1];
-    const auto position = [&](double way) { return way == 1.0 ? to : from + (to - from) * way; };
-    const auto piece =
-        fit_rows<1>([&](double way) { return std::array{mesh.load_share(position(way), 0.5 * (from + to))}; },
+    const auto position = [&](double fraction) { return fraction == 1.0 ? to : from + (to - from) * fraction; };
+    const auto fitted =
+        fit_rows<1>([&](double fraction) { return std::array{mesh.load_share(position(fraction), 0.5 * (from + to))}; },
                     lubrication.table_tolerance);
-    for (std::size_t i = 0; i <= piece.grid.count; ++i) {
-      e.share_position.push_back(position(piece.grid.way(i)));
-      e.share.push_back(piece.rows[i][0]);
+    for (std::size_t i = 0; i <= fitted.grid.count; ++i) {
+      e.share_position.push_back(position(fitted.grid.fraction(i)));
+      e.share.push_back(fitted.rows[i][0]);
     }
-    e.share_error = std::max(*e.share_error, piece.error);
+    e.share_error = std::max(*e.share_error, fitted.error);
   }
   return e;
 }

@@ -37,7 +37,7 @@ struct GearSet {
 };
 
 /// @param stage  planets and, if given, the centre distance; `stage.catalogue` is set
-/// @throws DomainError when the data make no gear set, ask catalogue_problems() first; InputError when options of the
+/// @throws DomainError if the data make no gear set: call catalogue_problems() first; InputError if options of the
 /// stiffness are out of range
 [[nodiscard]] GearSet make_gear_set(const Stage& stage);
 
@@ -54,8 +54,8 @@ struct PlanetPhases {
 /// it stands? Then its drawing has the other convention.
 [[nodiscard]] bool ring_shift_has_other_sign(const GearSet& set);
 
-/// What of tooth numbers, or of profile shifts, makes the two meshes ask for unlike centre distances, as the end of a
-/// message, from "; " on; empty where nothing does. Shifts are compared of members of one module and pressure angle.
+/// Tooth numbers or profile shifts for which the two meshes require different centre distances, as the end of a
+/// message, from "; " on; empty if there are none. Shifts are compared for members of one module and pressure angle.
 [[nodiscard]] std::string ring_misfit(const GearSet& set);
 
 /// Least gap between the tip circles of neighbouring planets [mm]; negative where they overlap.
@@ -89,14 +89,15 @@ struct MemberTolerances {
 /// What all teeth of a gear have in common is periodic with the mesh, the rest with the shaft (Mark, J. Acoust. Soc.
 /// Am. 63 (1978) 1409). Pitch deviations add up to 0 around a gear: their mean excites nothing at mesh frequency
 /// (Welbourn, Proc. IMechE 184 (1970) 131). The form deviation is the width of the band that holds the trace of a
-/// flank, the peak to peak of a wave in it. The larger of both members counts, as for the dynamic factor of ISO 6336-1.
+/// flank, the peak-to-peak value of a sine in it. The larger of both members counts, as for the dynamic factor of ISO
+/// 6336-1.
 [[nodiscard]] std::optional<double> error_amplitude_um(ErrorAmplitude from, const std::optional<Tolerances>& first,
                                                        const std::optional<Tolerances>& second);
 
 /// The addendum coefficient that the tip radius of an internal tooth stands for [-].
 [[nodiscard]] double addendum_of(const Tooth& ring);
 
-/// Addendum coefficients of the ring that ring_addendum_bound() looks at [-].
+/// Addendum coefficients of the ring that ring_addendum_bound() tests [-].
 inline constexpr std::pair<double, double> ring_addenda_searched = {0.1, 3.0};
 
 /// Greatest addendum coefficient of the ring with which the ring-planet mesh lies wholly beyond its pitch point, found

@@ -7,7 +7,7 @@
 //   cos alpha_sp = (r_bs + r_bp) / r_c ,  cos alpha_rp = (r_br - r_bp) / r_c                           [G-kin]
 //
 // Source: docs/theory/model.md, section 4; any textbook on epicyclic trains. Limits: a stage that passes
-// problems_for_motion().
+// problems_for_dynamics().
 #pragma once
 
 #include <numbers>
@@ -36,10 +36,11 @@ struct Torques {
 
 [[nodiscard]] Torques torques(const Stage& stage, double mesh_frequency);
 
-/// Of one planet with the carrier's turning, along its radius [N]: the load on its bearing that needs no torque. [G-cf]
+/// Centrifugal force of one planet by the carrier's rotation, along its radius [N]: the load on its bearing without
+/// torque. [G-cf]
 [[nodiscard]] double planet_centrifugal_force(const Stage& stage, double mesh_frequency);
 
-/// Operating pressure angles [rad]: from radii and centre distance where all are given (they carry more digits than an
+/// Operating pressure angles [rad]: from radii and centre distance if all are given (they have more digits than an
 /// angle in degrees), else as given.
 struct PressureAngles {
   double sun_planet, ring_planet;

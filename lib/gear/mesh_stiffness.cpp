@@ -14,16 +14,16 @@ namespace epicyclic::gear {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-// Contact ratios that differ less from a whole number make no piece of their own.
+// Contact ratios that differ less from a whole number make no smooth part of their own.
 constexpr double phase_resolution = 1e-9;
 constexpr int panels = 4;
 
 /// The phase of the same contact in [0, 1).
 double in_period(double phase) { return phase - std::floor(phase); }
 
-/// Calls f(from, to, inside) for each smooth piece of a period.
+/// Calls f(from, to, inside) for each smooth part of a period.
 template <class F>
-void for_pieces(const MeshedPair& mesh, F f) {
+void for_smooth_parts(const MeshedPair& mesh, F f) {
   const std::vector<double> breaks = mesh.breakpoints();
   for (std::size_t k = 0; k < breaks.size(); ++k) {
     const double to = k + 1 < breaks.size() ? breaks[k + 1] : 1.0;
@@ -92,9 +92,9 @@ double FourierSeries::at(double phase) const {
 FourierSeries fourier_series(const MeshedPair& mesh, int harmonics) {
   const Eigen::Index size = 2 * static_cast<Eigen::Index>(harmonics) + 1;
   Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(size);
-  for_pieces(mesh, [&](double from, double to, double inside) {
+  for_smooth_parts(mesh, [&](double from, double to, double inside) {
     // A harmonic needs nodes of its own; the stiffness itself is smooth.
-    const int pieces = panels * (1 + harmonics / 8);
+    const int subintervals = panels * (1 + harmonics / 8);
     sum += gauss_legendre_16().integrate(
         [&](double phase) -> Eigen::ArrayXd {
           Eigen::ArrayXd f(size);
@@ -106,7 +106,7 @@ FourierSeries fourier_series(const MeshedPair& mesh, int harmonics) {
           }
           return f;
         },
-        from, to, pieces);
+        from, to, subintervals);
   });
   FourierSeries series;
   series.mean = sum[0];
@@ -121,7 +121,7 @@ StiffnessRange stiffness_range(const MeshedPair& mesh) {
   constexpr int samples = 200;
   constexpr double infinite = std::numeric_limits<double>::infinity();
   StiffnessRange range{infinite, -infinite};
-  for_pieces(mesh, [&](double from, double to, double inside) {
+  for_smooth_parts(mesh, [&](double from, double to, double inside) {
     for (int k = 0; k <= samples; ++k) {
       const double value = mesh.stiffness(from + (to - from) * k / samples, inside);
       range.least = std::min(range.least, value);

@@ -13,7 +13,7 @@
 // the start of contact. Source: Tang et al. 2020, section 1.3 and Eq. (4) (with the time shift inside the angle);
 // docs/theory/gears.md, section 6. Limits: two pairs in contact are added as if each had a body of its own, which
 // over-estimates the stiffness in double contact (Xie et al. 2018). Smoothness: k jumps at phase 0 and at the
-// fractional part of epsilon, and is analytic between: every integral here is taken piece by piece.
+// fractional part of epsilon, and is analytic between: every integral here is the sum over the smooth parts.
 #pragma once
 
 #include <algorithm>
@@ -32,9 +32,9 @@ struct MeshedPair {
   double factor = 1;  ///< on the stiffness [-]
 
   [[nodiscard]] double contact_ratio() const { return pair.contact_ratio(); }
-  /// L of both gears: the smaller face width. What of a tooth overhangs the other one is not counted [mm].
+  /// L of both gears: the smaller face width. The part of a tooth beyond the other one does not count [mm].
   [[nodiscard]] double face_width_mm() const { return std::min(driving.tooth.width_mm, driven.tooth.width_mm); }
-  /// Of a tooth of either gear, over the common face width.
+  /// Compliance of a tooth of either gear, over the common face width.
   /// @param body  `driving` or `driven`
   /// @throws as tooth_compliance() does
   [[nodiscard]] ToothCompliance compliance(const ToothBody& body, double contact_radius_mm) const;
@@ -52,10 +52,10 @@ struct MeshedPair {
 
   /// k at a phase [N/m].
   [[nodiscard]] double stiffness(double phase) const;
-  /// k at a phase in [0, 1], as it is within the piece that holds `inside` in (0, 1) [N/m].
+  /// k at a phase in [0, 1], as it is within the smooth part that holds `inside` in (0, 1) [N/m].
   [[nodiscard]] double stiffness(double phase, double inside) const;
 
-  /// Share of the load that the pair at a position carries; at a jump, `inside` tells the side [-].
+  /// Share of the load on the pair at a position; at a jump, `inside` selects the side [-].
   [[nodiscard]] double load_share(double position, double inside) const;
   [[nodiscard]] double load_share(double position) const { return load_share(position, position); }
 };
@@ -69,10 +69,10 @@ struct FourierSeries {
   [[nodiscard]] double at(double phase) const;
 };
 
-/// By quadrature over each smooth piece.
+/// By quadrature over each smooth part.
 [[nodiscard]] FourierSeries fourier_series(const MeshedPair& mesh, int harmonics);
 
-/// Least and greatest stiffness over a period, by dense sampling of each smooth piece, its ends included [N/m].
+/// Least and greatest stiffness over a period, by dense sampling of each smooth part, its ends included [N/m].
 struct StiffnessRange {
   double least, greatest;
 };

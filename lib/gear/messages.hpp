@@ -1,4 +1,4 @@
-// Lines "pointer: message" on a stage, collected before they are told all at once: problems, and warnings with a rank.
+// Lines "pointer: message" on a stage, collected before they are reported together: problems, and warnings with a rank.
 #pragma once
 
 #include <algorithm>
@@ -88,7 +88,7 @@ class Warnings {
   void add(Rank rank, double excess, const std::string& pointer, const std::string& subject, const Parts&... parts) {
     add_once(rank, excess, pointer, pointer + " " + subject, parts...);
   }
-  /// @param subject  wherever it is told
+  /// @param subject  independent of the pointer
   template <class... Parts>
   void add_once(Rank rank, double excess, const std::string& pointer, const std::string& subject,
                 const Parts&... parts) {

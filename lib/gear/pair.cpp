@@ -76,7 +76,7 @@ double Pair::backlash_mm() const {
   const double r_2 = pitch_radius_2_mm();
   const double pitch = 2.0 * pi * r_1 / driving.teeth;
   const double backlash = pitch - driving.thickness_at(r_1) - driven.thickness_at(r_2);
-  // What rounding leaves of the terms of a mesh without backlash is none.
+  // For a mesh without backlash the sum of the terms is rounding: the result is then 0.
   constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
   return std::abs(backlash) <= rounding * pitch ? 0.0 : backlash;
 }
@@ -104,8 +104,8 @@ double Pair::tip_passing_angle() const {
   const double at_1 = std::acos((r_2 * r_2 - r_1 * r_1 - a * a) / (2.0 * a * r_1));
   const double at_2 = std::acos((r_2 * r_2 + a * a - r_1 * r_1) / (2.0 * a * r_2));
   const double inv = involute(pressure_angle);
-  const double turn_1 = at_1 + involute(driving.pressure_angle_at(r_1)) - inv;
-  return turn_1 * driving.teeth / driven.teeth + inv - involute(driven.pressure_angle_at(r_2)) - at_2;
+  const double rotation_1 = at_1 + involute(driving.pressure_angle_at(r_1)) - inv;
+  return rotation_1 * driving.teeth / driven.teeth + inv - involute(driven.pressure_angle_at(r_2)) - at_2;
 }
 
 ContactSpeeds contact_speeds(const Pair& pair, double l_mm, double base_speed) {

@@ -12,7 +12,7 @@ namespace {
 // How far printed radii, centre distance, angle and teeth may disagree: five digits are what catalogues give.
 constexpr double radii_tolerance = 1e-4;
 constexpr double angle_tolerance_deg = 0.02;
-// Rows of a friction table nearer than this cannot be told apart once they are shifted by a phase.
+// Rows of a friction table nearer than this coincide after a shift by a phase.
 constexpr double phase_resolution = 1e-9;
 // Neighbouring planets nearer than this have no room for teeth.
 constexpr double angle_resolution_deg = 1e-6;
@@ -146,7 +146,7 @@ void check_stiffness(Problems& out, const std::string& pointer, const Mesh& mesh
   for (const auto* amplitudes : {&c, &s})
     for (const double amplitude : *amplitudes) swing += std::abs(amplitude);
   constexpr double rounding = 1e-12;  // of the sums
-  // Harmonics that together are less than the mean leave it positive everywhere: no need to look.
+  // Harmonics that together are less than the mean leave the stiffness positive everywhere: no need to sample it.
   if (swing < (1.0 - rounding) * mesh.stiffness_N_per_m) return;
   double lowest = mesh.stiffness_N_per_m;
   for (int k = 0; k < samples; ++k) {
@@ -188,7 +188,7 @@ void check_ehl(Problems& out, const std::string& pointer, const EhlFriction& e) 
       out.add(pointer + "/load_share_position/" + std::to_string(k), "must rise (", p[k], " after ", p[k - 1], ")");
 }
 
-void check_motion_of_member(Problems& out, const std::string& pointer, const CentralMember& m) {
+void check_dynamics_of_member(Problems& out, const std::string& pointer, const CentralMember& m) {
   if (!m.teeth) out.add(pointer + "/teeth", "is missing; time integration needs it");
   if (!m.base_radius_mm) out.add(pointer + "/base_radius_mm", "is missing; time integration needs it");
 }
@@ -238,7 +238,7 @@ void check_compatibility(Problems& out, const Stage& s) {
             " (relative difference at most ", radii_tolerance, ")");
 }
 
-void check_mesh_for_motion(Problems& out, const std::string& pointer, const Mesh& mesh) {
+void check_mesh_for_dynamics(Problems& out, const std::string& pointer, const Mesh& mesh) {
   if (!mesh.damping_ratio) out.add(pointer + "/damping_ratio", "is missing; time integration needs it");
 }
 
@@ -288,10 +288,10 @@ std::vector<std::string> problems_for_modes(const Stage& s) {
   return out.take();
 }
 
-std::vector<std::string> problems_for_motion(const Stage& s) {
+std::vector<std::string> problems_for_dynamics(const Stage& s) {
   Problems out;
-  check_motion_of_member(out, "/lumped/sun", s.sun);
-  check_motion_of_member(out, "/lumped/ring", s.ring);
+  check_dynamics_of_member(out, "/lumped/sun", s.sun);
+  check_dynamics_of_member(out, "/lumped/ring", s.ring);
   if (!s.planet.teeth) out.add("/lumped/planet/teeth", "is missing; time integration needs it");
   if (!s.planet.base_radius_mm) out.add("/lumped/planet/base_radius_mm", "is missing; time integration needs it");
   if (!s.centre_distance_mm) out.add("/planets/centre_distance_mm", "is missing; time integration needs it");
@@ -308,7 +308,7 @@ std::vector<std::string> problems_for_motion(const Stage& s) {
     const Mesh& mesh;
   } meshes[] = {{"/lumped/sun_planet_mesh", s.sun_planet_mesh}, {"/lumped/ring_planet_mesh", s.ring_planet_mesh}};
   for (const auto& [pointer, mesh] : meshes) {
-    check_mesh_for_motion(out, pointer, mesh);
+    check_mesh_for_dynamics(out, pointer, mesh);
     check_per_planet(out, std::string(pointer) + "/error_amplitude_um", mesh.error_amplitude_um, s.planet_count);
     check_per_planet(out, std::string(pointer) + "/error_phase_deg", mesh.error_phase_deg, s.planet_count);
     if (mesh.stiffness_curve)

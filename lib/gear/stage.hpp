@@ -1,6 +1,6 @@
 // The planetary stage in SI units, as lumped values: what the model needs and nothing else.
 //
-// Catalogue data (module, modification, bores ...) are turned into this form; users with measured or finite-element
+// Catalogue data (module, modification, bores ...) are converted to this form; users with measured or finite-element
 // data give it directly. Members are named as in Tang et al. 2020, section 2: sun s, planets p_i, ring r, carrier c.
 //
 // Rotations are measured as displacements on a radius of reference, u = r theta: the base circle for gears, the centre
@@ -104,14 +104,14 @@ struct FrictionTable {
   std::vector<double> moment_driven_mm;                   ///< B about the axis of the driven member [mm]
   std::vector<double> breakpoints;                        ///< phases where the table jumps or kinks [-]
   Interpolation interpolation = Interpolation::monotone;  ///< between the rows
-  std::vector<IntervalGrid> grids{};                      ///< of a computed one: what the rows of each piece stand on
-  double error = 0;                                       ///< of a computed one: greatest error between the rows [-]
+  std::vector<IntervalGrid> grids{};  ///< of a computed one: the grid of the rows between two breakpoints
+  double error = 0;                   ///< of a computed one: greatest error between the rows [-]
 };
 
 /// Coulomb coefficient mu on a path of contact with equal load sharing among the pairs in contact.
 struct CoulombFriction {
   double coefficient = 0;               ///< mu [-]
-  double contact_ratio = 1;             ///< epsilon, pairs in contact: below 1 no motion is transmitted; up to 3
+  double contact_ratio = 1;             ///< epsilon, pairs in contact: below 1 no rotation is transmitted; up to 3
   std::optional<double> path_start_mm;  ///< friction arm of the driving member where contact starts; default: the
                                         ///< path is symmetric about the pitch point
 };
@@ -124,8 +124,8 @@ struct EhlFriction {
   double width_mm = 0;                ///< face width in contact
   double contact_ratio = 1;           ///< epsilon
   double path_start_mm = 0;           ///< friction arm of the driving member where contact starts
-  /// Share of the load that a pair carries, against its position in base pitches from the start of contact, 0 ..
-  /// epsilon, rising; a jump stands twice. Empty: equal sharing.
+  /// Share of the load on a pair, against its position in base pitches from the start of contact, 0 .. epsilon, rising;
+  /// a jump stands twice. Empty: equal sharing.
   std::vector<double> share_position;
   std::vector<double> share;
   Interpolation share_interpolation = Interpolation::linear;  ///< between the rows
@@ -205,12 +205,12 @@ struct Misfit {
 /// Planets that cannot be assembled by more than a thousandth of a degree; none where teeth are not given.
 [[nodiscard]] std::vector<Misfit> assembly_misfits(const Stage& stage);
 
-/// What must hold for the linear model: signs, counts, at least one way to the pressure angles, ... (any support free,
-/// finite or rigid).
+/// What must hold for the linear model: signs, counts, at least one definition of the pressure angles, ... (any support
+/// free, finite or rigid).
 /// @returns one line per rule broken, "pointer: message", pointer relative to the stage; empty if all is well
 [[nodiscard]] std::vector<std::string> problems_for_modes(const Stage& stage);
 
 /// What must hold, beyond that, for time integration: supports that fit the boundary, compatible radii, a load, ...
-[[nodiscard]] std::vector<std::string> problems_for_motion(const Stage& stage);
+[[nodiscard]] std::vector<std::string> problems_for_dynamics(const Stage& stage);
 
 }  // namespace epicyclic::gear

@@ -134,11 +134,11 @@ ProfilePoint Tooth::fillet_slope(double gamma) const {
   const double phi_slope = -a_1 / (sine * sine) / reference_radius_mm;
   const double reach = a_1 / sine + rho;
   const double reach_slope = -a_1 * std::cos(gamma) / (sine * sine);
-  const double turn = 1.0 - phi_slope;
+  const double rotation = 1.0 - phi_slope;
   return {reference_radius_mm * std::cos(phi) * phi_slope - reach_slope * std::cos(gamma - phi) +
-              reach * std::sin(gamma - phi) * turn,
+              reach * std::sin(gamma - phi) * rotation,
           -reference_radius_mm * std::sin(phi) * phi_slope - reach_slope * std::sin(gamma - phi) -
-              reach * std::cos(gamma - phi) * turn};
+              reach * std::cos(gamma - phi) * rotation};
 }
 
 Tooth external_tooth(const GearData& d, double tip_shortening) {

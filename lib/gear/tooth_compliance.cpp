@@ -24,7 +24,7 @@ using Energies = Eigen::Array3d;
 double square(double x) { return x * x; }
 double cube(double x) { return x * x * x; }
 
-/// Of the direction of the force, one for all sections of a tooth.
+/// Sine and cosine of the direction of the force, one for all sections of a tooth.
 struct Direction {
   explicit Direction(double angle) : cosine(std::cos(angle)), sine(std::sin(angle)) {}
   double cosine, sine;

@@ -20,7 +20,7 @@
 // gains with h^2 (B = 0.1855) is its wind-up about that circle, (1 + nu)/(2 pi) (h^2 - 1) by the theory of the annulus
 // (0.207 for nu = 0.3). A shaft gear takes its torque along its axis and a planet takes none at its bore: neither winds
 // up, and the formula would make a solid gear (h -> infinity) infinitely soft. A solid disc of plane stress under the
-// same tangential load, referred to its own rigid-body motion, has [G-disc]
+// same tangential load, referred to its own rigid-body displacement, has [G-disc]
 //   P = (1 + nu)/(6 pi) + (3 + nu)/(2 pi) + 1/(2 pi) sum_{n >= 2} (sin n theta / n theta)^2 [(3-nu)/(n+1) +
 //   (1+nu)/(n-1)]
 // which is 2.70, 2.38, 2.17, 2.01 at theta 0.03, 0.05, 0.07, 0.09, where Sainsot's P* at h = 1.4, the lower end of its
@@ -42,7 +42,7 @@
 
 namespace epicyclic::gear {
 
-/// What lies between involute and root circle of an external tooth.
+/// Shape between involute and root circle of an external tooth.
 enum class Fillet {
   none,      ///< the involute goes on to the root circle, inside the base circle a straight flank
   trochoid,  ///< the fillet that the rack cuts
@@ -51,7 +51,7 @@ enum class Fillet {
 /// Elastic body under a ring's tooth.
 enum class RingFoundation { half_plane, rigid };
 
-/// From where the lever of the force on the tooth's body is measured, along the tooth's centre line, to the root
+/// The point on the tooth's centre line from which the lever of the force on the tooth's body is measured, to the root
 /// circle.
 enum class FoundationLever {
   centreline,      ///< crossing of the line of action and the centre line (Sainsot)
@@ -63,7 +63,7 @@ struct ComplianceOptions {
   Fillet fillet = Fillet::none;
   RingFoundation ring_foundation = RingFoundation::half_plane;
   FoundationLever lever = FoundationLever::centreline;
-  int panels = 4;  ///< of 16 Gauss points, on each smooth piece of the profile
+  int panels = 4;  ///< of 16 Gauss points, on each smooth part of the profile
 
   /// @throws InputError for less than one panel
   void validate() const;
@@ -86,7 +86,7 @@ struct ToothCompliance {
   [[nodiscard]] double sum() const { return bending + shear + axial + foundation; }
 };
 
-/// @throws DomainError when the contact is not on the flank, or the tooth is undercut and its fillet asked for;
+/// @throws DomainError if the contact is not on the flank, or if the fillet of an undercut tooth is requested;
 /// InputError for options out of range
 [[nodiscard]] ToothCompliance tooth_compliance(const ToothBody& body, double contact_radius_mm,
                                                const ComplianceOptions& options);

@@ -209,11 +209,11 @@ void check_mean(Warnings& out, const std::string& pointer, const Mesh& mesh, con
 
 void check_assembly(Warnings& out, const Stage& s) {
   for (const Misfit& m : assembly_misfits(s)) {
-    const double turns = (*s.sun.teeth + *s.ring.teeth) * (m.angle_deg - s.planet_angles_deg()[0]) / 360.0;
+    const double cycles = (*s.sun.teeth + *s.ring.teeth) * (m.angle_deg - s.planet_angles_deg()[0]) / 360.0;
     out.add(Rank::impossible, 1.0,
             s.angles_deg.empty() ? "/planets/count" : "/planets/angles_deg/" + std::to_string(m.planet),
             "assembly of planet " + std::to_string(m.planet + 1), "planet ", static_cast<double>(m.planet + 1), " at ",
-            m.angle_deg, " deg cannot be assembled: (z_s + z_r)(phi_i - phi_1) / 360 deg = ", turns,
+            m.angle_deg, " deg cannot be assembled: (z_s + z_r)(phi_i - phi_1) / 360 deg = ", cycles,
             " is not whole; it could at ", std::fmod(m.nearest_deg, 360.0), " deg");
   }
 }
@@ -471,7 +471,7 @@ std::vector<Warning> truncation_warnings(const GearSet& set, const Stage& stage)
   return out.take();
 }
 
-std::vector<Warning> warnings_for_motion(const Stage& s) {
+std::vector<Warning> warnings_for_dynamics(const Stage& s) {
   Warnings out;
   check_assembly(out, s);
   check_damping(out, "/lumped/sun", s.sun.support_N_per_m, s.sun.mass_kg, s.sun.damping);
@@ -487,7 +487,7 @@ std::vector<Warning> warnings_for_motion(const Stage& s) {
 
 std::vector<Warning> warnings_at(const Stage& s, double mesh_frequency, const GearSet* set) {
   Warnings out;
-  if (!problems_for_motion(s).empty()) return {};
+  if (!problems_for_dynamics(s).empty()) return {};
   const double density = s.catalogue ? s.catalogue->material.density_kg_per_m3 : Material{}.density_kg_per_m3;
   const Speeds w = speeds(s, mesh_frequency);
   check_speed(out, "/lumped/sun", "its teeth", w.sun, *s.sun.base_radius_mm, density);

@@ -1,4 +1,4 @@
-// Warnings: what is allowed but rarely meant, with the number that tells it, ranked.
+// Warnings: values that are allowed but rarely meant, with the number that shows it, ranked.
 //
 //   backlash        j_bn > 4 (2/3)(0.06 + 0.0005 a + 0.03 m) mm, four times the least that ISO/TR 10064-2
 //                   recommends; or some, but below a hundredth of it
@@ -32,8 +32,8 @@
 //   rim             under external teeth thinner than 1.2 tooth heights, under a ring's than 3.5 m, where ISO 6336-3
 //                   begins to count its bending (Y_B); [G-kf], [G-kfr] have no rim
 //
-// A stage without catalogue data has m = 2 r_bp / (z_p cos 20 deg). Bounds are wide: they tell a slip of a unit or of a
-// tooth count, not a bold design. Limits: nominal loads, no dynamic factor; no tooth-root stress.
+// A stage without catalogue data has m = 2 r_bp / (z_p cos 20 deg). Bounds are wide: they find a wrong unit or tooth
+// count, not an unusual design. Limits: nominal loads, no dynamic factor; no tooth-root stress.
 #pragma once
 
 #include <string>
@@ -48,21 +48,21 @@ namespace epicyclic::gear {
 /// What is allowed but rarely meant about the drawings: thin tips, undercut, little room, formulas out of range.
 [[nodiscard]] std::vector<Warning> catalogue_warnings(const GearSet& set);
 
-/// What of the stage does not go with its drawings: masses, mesh stiffness.
+/// Data of the stage that do not fit its drawings: masses, mesh stiffness.
 [[nodiscard]] std::vector<Warning> catalogue_warnings(const GearSet& set, const Stage& stage);
 
 /// Masses and inertias of a stage without drawings against each other, whether it moves or is for modes alone.
 [[nodiscard]] std::vector<Warning> mass_warnings(const Stage& stage);
 
-/// What the computed harmonics lose of the variation of the mesh stiffness, where that is more than 5 % of it, peak to
-/// peak; none where the stage has harmonics or a curve of its own.
+/// Loss of variation of the mesh stiffness by the computed harmonics, if more than 5 % of it, peak to peak; none if the
+/// stage has harmonics or a curve of its own.
 [[nodiscard]] std::vector<Warning> truncation_warnings(const GearSet& set, const Stage& stage);
 
 /// What is allowed but rarely meant in time integration: planets that cannot be assembled, supports without damping or
-/// with more than critical, wide gaps. Of a stage for modes alone what its values let one see.
-[[nodiscard]] std::vector<Warning> warnings_for_motion(const Stage& stage);
+/// with more than critical, wide gaps. A stage for modes alone gets the warnings that its values allow.
+[[nodiscard]] std::vector<Warning> warnings_for_dynamics(const Stage& stage);
 
-/// Speeds, forces and deflections at an operating point; none of a stage that does not pass problems_for_motion().
+/// Speeds, forces and deflections at an operating point; none of a stage that does not pass problems_for_dynamics().
 /// @param mesh_frequency  omega_m [rad/s]
 /// @param set  of the stage's catalogue data, for the pressure of its flanks; without it that of lubricated contact
 [[nodiscard]] std::vector<Warning> warnings_at(const Stage& stage, double mesh_frequency, const GearSet* set = nullptr);

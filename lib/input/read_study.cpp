@@ -58,7 +58,7 @@ bool judge_stage(const Study& study, const std::string& root, F not_computed, Re
   if (study.stage.planet_count < gear::planets_min || study.stage.planet_count > gear::planets_max) return sound;
   auto rules = gear::problems_for_modes(study.stage);
   if (study.has_dynamics()) {
-    const auto more = gear::problems_for_motion(study.stage);
+    const auto more = gear::problems_for_dynamics(study.stage);
     rules.insert(rules.end(), more.begin(), more.end());
   }
   const Judge judge(std::move(unread));

@@ -206,7 +206,7 @@ class LoadedInput::Loader {
     Study given = input_.study;
     input_.given_speed = given.given_speed;
     input::convert_speeds(
-        input_.study, whole_, sound_ && gear::problems_for_motion(given.stage).empty(),
+        input_.study, whole_, sound_ && gear::problems_for_dynamics(given.stage).empty(),
         [this](const std::string& pointer) { return is_bad(pointer); },
         [this](Finding::Kind kind, const std::string& pointer, std::string message) {
           if (!message.empty()) context_.add(kind, pointer, std::move(message));

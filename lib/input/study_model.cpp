@@ -133,8 +133,8 @@ void warn_of_stage(std::vector<gear::Warning>& out, const gear::Stage& stage, do
     append(gear::catalogue_warnings(*set, stage));
   }
   append(gear::mass_warnings(stage));
-  if (!gear::problems_for_motion(stage).empty()) return;
-  append(gear::warnings_for_motion(stage));
+  if (!gear::problems_for_dynamics(stage).empty()) return;
+  append(gear::warnings_for_dynamics(stage));
   append(gear::warnings_at(stage, mesh_frequency, set ? &*set : nullptr));
 }
 
@@ -148,7 +148,7 @@ void warn_of_centrifugal_force(std::vector<gear::Warning>& out, const LoadedInpu
   const json* origin = input.value_at("/model/origin/centrifugal");
   if (stage.boundary == gear::Boundary::as_printed || origin == nullptr || *origin != "default") return;
   constexpr double negligible = 0.1;
-  if (!gear::problems_for_motion(stage).empty()) return;
+  if (!gear::problems_for_dynamics(stage).empty()) return;
   const double force = gear::planet_centrifugal_force(stage, mesh_frequency);
   const double load = gear::mean_planet_load(stage, mesh_frequency);
   if (!(force > negligible * load)) return;
@@ -176,7 +176,7 @@ bool harmonics_by_default(const LoadedInput& input, const std::string& root) {
 /// @param root  of the stage in the resolved input
 void warn_of_estimated_error(std::vector<gear::Warning>& out, const LoadedInput& input, const std::string& root,
                              const gear::Stage& stage, double mesh_frequency) {
-  if (!gear::problems_for_motion(stage).empty()) return;
+  if (!gear::problems_for_dynamics(stage).empty()) return;
   const auto origin_is = [&](const std::string& pointer, const auto& is) {
     const json* origin = input.value_at(root + pointer);
     return origin != nullptr && origin->is_string() && is(origin->get_ref<const std::string&>());
@@ -339,7 +339,7 @@ std::vector<std::string> gear_warnings(const LoadedInput& input) {
   std::vector<std::string> lines = texts(std::move(all));
   // A lumped stage may be one of modes alone; drawings are given of stages that move.
   if (stage.catalogue)
-    for (const std::string& line : gear::problems_for_motion(stage))
+    for (const std::string& line : gear::problems_for_dynamics(stage))
       lines.push_back("no time integration, no operating point: " + line);
   lines.insert(lines.end(), input.notes.begin(), input.notes.end());
   return lines;

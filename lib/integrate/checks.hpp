@@ -1,4 +1,4 @@
-// What every Flow asks of its field and of the samples of an evolution.
+// Checks of every Flow on its field and on the samples of an evolution.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@ namespace epicyclic::integrate {
 /// that do not rise or lie outside [0, period); for sampling intervals that are not positive, one for each segment
 void check_field(const VectorField& field);
 
-/// @throws InputError unless the samples rise from where the motion begins
+/// @throws InputError unless the samples rise from the start of the evolution
 void check_samples(double from, std::span<const double> samples);
 
 }  // namespace epicyclic::integrate

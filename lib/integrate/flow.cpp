@@ -38,9 +38,9 @@ std::vector<double> breakpoints_between(const VectorField& field, double from, d
   std::vector<double> between;
   if (field.breakpoints.empty()) return between;
   const double near = tolerance(field);
-  for (double turn = std::floor(from / field.period); turn * field.period < to; turn += 1.0)
+  for (double cycle = std::floor(from / field.period); cycle * field.period < to; cycle += 1.0)
     for (const double b : field.breakpoints) {
-      const double s = turn * field.period + b;
+      const double s = cycle * field.period + b;
       if (s > from + near && s < to - near) between.push_back(s);
     }
   return between;

@@ -1,4 +1,4 @@
-// Flow: what analysis knows of a dynamical system. It carries a state along the independent variable s.
+// Flow: what analysis knows of a dynamical system. It integrates a state over the independent variable s.
 //
 //   dy/ds = g(s, y; p) ,        phi(s_0 -> s_1): y(s_0) -> y(s_1)
 //   dv/ds = (dg/dy) v ,         a tangent vector: (d phi / dy) v
@@ -64,7 +64,7 @@ class Flow {
 
   [[nodiscard]] virtual const VectorField& field() const = 0;
 
-  /// Carries the state from s = from to s = to > from.
+  /// Integrates the state from s = from to s = to > from.
   ///
   /// @param state    dimension() numbers, replaced
   /// @param samples  rising values of s in (from, to] at which `observer` sees the dense output; their number does not
@@ -76,12 +76,12 @@ class Flow {
 
   Evolution evolve(std::span<double> state, double from, double to) { return evolve(state, from, to, {}, {}); }
 
-  /// Carries the state and m tangent vectors through the same steps.
+  /// Integrates the state and m tangent vectors with the same steps.
   ///
   /// @param tangents  m vectors of dimension() numbers one behind the other, replaced; if not reached, those at the
   ///                  state's place
-  /// @throws InputError when the field has no tangents or jumps at surfaces, or when a parameter derivative is asked of
-  /// a field without one
+  /// @throws InputError when the field has no tangents or jumps at surfaces, or if a parameter derivative is requested
+  /// of a field without one
   virtual Evolution evolve_tangents(std::span<double> state, std::span<double> tangents, double from, double to,
                                     LastTangent last) = 0;
 
@@ -121,8 +121,7 @@ class Flow {
 /// Widest distance of two neighbouring nodes of a Runge-Kutta method, the ends of the step among them [steps].
 [[nodiscard]] double widest_gap(std::span<const double> nodes);
 
-/// What every evolve_tangents() asks of its arguments.
-/// @throws InputError as documented there
+/// Checks of every evolve_tangents() on its arguments.
 void check_tangents(const VectorField& field, std::span<const double> tangents, LastTangent last);
 
 /// dg/dy, column by column.

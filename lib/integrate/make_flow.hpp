@@ -13,10 +13,10 @@ namespace epicyclic::integrate {
 /// cannot be set up
 [[nodiscard]] std::unique_ptr<Flow> make_flow(VectorField field, const IntegratorOptions& options);
 
-/// What makes flows: make_flow(), or lanes that many motions share.
+/// Makes flows: make_flow(), or lanes that many trajectories share.
 using FlowMaker = std::function<std::unique_ptr<Flow>(VectorField field, const IntegratorOptions& options)>;
 
-/// Flows of systems that differ by a parameter. Where fields have their parameter derivative, so do the flows
+/// Flows of systems that differ by a parameter. If fields have their parameter derivative, so do the flows
 /// (LastTangent::parameter).
 using FlowFamily = std::function<std::unique_ptr<Flow>(double value)>;
 

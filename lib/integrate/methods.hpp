@@ -19,7 +19,7 @@ struct Method {
   std::string_view name;  ///< as in the input: "arkode-...", "cvode-..." or "lanes-..."
   Family family;
   std::string_view table;  ///< ARKODE's name of the Butcher table; empty elsewhere
-  int order;               ///< of the solution that is carried on; the highest one for CVODE
+  int order;               ///< of the solution that is continued; the highest one for CVODE
   int embedded_order;      ///< of the solution that measures the error; 0 for CVODE
   int stages;              ///< 0 for CVODE
 
@@ -29,7 +29,7 @@ struct Method {
   bool misses_kinks = false;
 
   [[nodiscard]] bool multistep() const { return family == Family::adams || family == Family::bdf; }
-  /// Whether it can end a step where a contact opens or closes.
+  /// True if it can end a step where a contact opens or closes.
   [[nodiscard]] bool locates_contacts() const { return family == Family::erk; }
   [[nodiscard]] bool implicit() const { return family == Family::dirk || family == Family::bdf; }
 };

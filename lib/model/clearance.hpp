@@ -24,7 +24,7 @@ struct Closure {
   T slope;  ///< df/dd [-]
 };
 
-// The half gap b and the width w may be constants (B) where the displacement carries derivatives (T).
+// The half gap b and the width w may be constants (B) if the displacement has derivatives (T).
 
 /// [M-f] with its slope, which jumps between 0 and 1 at d = +-b. At the kink the closed side's slope is taken, so that
 /// b = 0 is f = d with slope 1 at d = 0 too.
@@ -51,7 +51,8 @@ template <class T, class B>
   return smooth ? closure_smooth(d, b, w) : closure_exact(d, b);
 }
 
-/// The value alone. Of dual numbers it is the plain value and the plain slope: a fraction of what [M-fw] costs on them.
+/// The value alone. For dual numbers it uses the plain value and the plain slope: a fraction of the cost of [M-fw] on
+/// them.
 template <class T, class B>
 [[nodiscard]] T closed_by(const T& d, const B& b, const B& w, bool smooth) {
   if constexpr (!is_dual<B> && !std::is_same_v<T, B> && requires { chained(d, value_of(d), value_of(d)); }) {

@@ -1,4 +1,4 @@
-// From a number of planets at run time to that of a template.
+// Conversion of a number of planets at run time to that of a template.
 #pragma once
 
 #include <cstddef>

@@ -44,7 +44,7 @@ std::size_t segment_at(const std::vector<double>& breakpoints, double s) {
 
 namespace {
 
-/// Is turning by one planet a symmetry without a shift in time?
+/// Is a rotation by one planet a symmetry without a shift in time?
 template <std::size_t N>
 bool planets_alike(const Parameters<double, N>& p) {
   constexpr double rounding = 1e-9;
@@ -90,7 +90,7 @@ void remove_synchronous(Layout layout, const Parameters<double, N>& p, std::span
   }
 }
 
-/// The instant of what looks at deflections alone: stiffness and friction in tables are not looked up.
+/// Coefficients for deflections alone: without the tables of stiffness and friction.
 template <std::size_t N>
 PhaseCoefficients<double, N> without_tables(const Parameters<double, N>& p, double s) {
   return {p, HarmonicBasis<double>(sine_cosine(s), harmonics_of(p))};
@@ -139,11 +139,11 @@ bool has_computed_tables(const gear::Stage& stage) {
 
 /// The instants of all phases are made here, once.
 template <std::size_t N, std::size_t W>
-StageOutputsAt stage_looks(Layout layout, const std::shared_ptr<const Parameters<double, N>>& p,
-                           const OutputKernel<N, W>& kernel) {
+StageOutputsAt stage_outputs(Layout layout, const std::shared_ptr<const Parameters<double, N>>& p,
+                             const OutputKernel<N, W>& kernel) {
   using Instants = PhaseCoefficients<Lanes<W>, N>;
-  struct Looks {
-    Looks(const std::shared_ptr<const Parameters<double, N>>& all, std::size_t size)
+  struct OutputInstants {
+    OutputInstants(const std::shared_ptr<const Parameters<double, N>>& all, std::size_t size)
         : lanes(all), count(size), phase_coefficients(std::make_unique<Instants[]>(size)) {}
     LaneParameters<N, W> lanes;
     std::size_t count;
@@ -151,7 +151,7 @@ StageOutputsAt stage_looks(Layout layout, const std::shared_ptr<const Parameters
   };
   return [layout, p, kernel](std::span<const double> phases) -> StageOutputs {
     const std::size_t groups = (phases.size() + phases_together - 1) / phases_together;
-    const auto outputs_at = std::make_shared<Looks>(p, groups * phases_together / W);
+    const auto outputs_at = std::make_shared<OutputInstants>(p, groups * phases_together / W);
     alignas(sizeof(double) * W) std::array<double, W> s;
     for (std::size_t k = 0; k < outputs_at->count; ++k) {
       for (std::size_t lane = 0; lane < W; ++lane) {
@@ -171,12 +171,12 @@ StageOutputsAt stage_looks(Layout layout, const std::shared_ptr<const Parameters
 
 /// By the widest lanes that this machine runs.
 template <std::size_t N>
-StageOutputsAt make_stage_looks(Layout layout, const std::shared_ptr<const Parameters<double, N>>& p) {
+StageOutputsAt make_stage_outputs(Layout layout, const std::shared_ptr<const Parameters<double, N>>& p) {
   if (const auto kernel = output_kernel<N, 8>("avx512"); kernel.evaluate_outputs != nullptr)
-    return stage_looks(layout, p, kernel);
+    return stage_outputs(layout, p, kernel);
   if (const auto kernel = output_kernel<N, 4>("avx2"); kernel.evaluate_outputs != nullptr)
-    return stage_looks(layout, p, kernel);
-  return stage_looks(layout, p, output_kernel<N, 2>("baseline"));
+    return stage_outputs(layout, p, kernel);
+  return stage_outputs(layout, p, output_kernel<N, 2>("baseline"));
 }
 
 template <std::size_t N>
@@ -211,7 +211,7 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
     contact_distances(layout, *p, without_tables(*p, s), y, distances, rates);
   };
   m.forces = [layout, p](double s, const double* y, StageForces& out) { forces_at(layout, *p, s, y, out); };
-  m.outputs_at = make_stage_looks(layout, p);
+  m.outputs_at = make_stage_outputs(layout, p);
   m.scales = scales;
   m.speeds = gear::speeds(stage, mesh_frequency_ratio * scales.omega_sn);
   m.origin = constants;
@@ -226,7 +226,8 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
       if (mesh->friction) m.friction_table_error = std::max(m.friction_table_error, mesh->friction->error());
   }
   m.static_mesh_force = p->drive / static_cast<double>(N);
-  for (std::size_t i = 0; i < N; ++i) m.planet_phases.push_back(p->sun_planet.turns[i] - p->sun_planet.turns[0]);
+  for (std::size_t i = 0; i < N; ++i)
+    m.planet_phases.push_back(p->sun_planet.phase_cycles[i] - p->sun_planet.phase_cycles[0]);
   if (planets_alike(*p)) {
     m.remove_synchronous = [layout, p](std::span<double> deviation) { remove_synchronous(layout, *p, deviation); };
   }

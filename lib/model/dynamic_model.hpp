@@ -61,8 +61,8 @@ struct DynamicModel : VectorField {
   /// Forces of meshes and bearings at a state; allocation-free when `out` has been used before.
   std::function<void(double s, const double* y, StageForces& out)> forces;
 
-  /// The same and the transmission error, for many instants [model/stage_outputs.hpp]. Empty in a model of
-  /// one's own: of its meshes nothing but deflections is then told.
+  /// The same and the transmission error, for many instants [model/stage_outputs.hpp]. Empty in a model of one's own:
+  /// then only deflections of its meshes are known.
   StageOutputsAt outputs_at;
 
   /// This model with tables that are half as fine, where rows of something known make them: how far an orbit moves is
@@ -72,13 +72,12 @@ struct DynamicModel : VectorField {
 
   double static_mesh_force = 0;  ///< T_D / (N r_bs) [m_0 omega_sn^2 b_c]
 
-  /// Mesh phase of each planet ahead of that of planet 1, in turns [M-phase]; empty in a model of one's own.
+  /// Mesh phase of each planet ahead of that of planet 1, in mesh periods [M-phase]; empty in a model of one's own.
   std::vector<double> planet_phases;
 
-  /// Takes from a state's deviation what keeps the planets synchronous: equal motions of all planets in their own
-  /// directions and rotations of the central members. What is left breaks the symmetry, and the flow linearised about a
-  /// synchronous motion keeps it so. Empty unless planets are alike: equally spaced, all meshing in phase, equal
-  /// errors.
+  /// Removes the synchronous part from a state's deviation: equal displacements of all planets in their own directions
+  /// and rotations of the central members. The rest breaks the symmetry, and the flow linearised about a synchronous
+  /// trajectory keeps it so. Empty unless planets are alike: equally spaced, all meshing in phase, equal errors.
   std::function<void(std::span<double> deviation)> remove_synchronous;
 
   /// At rest, each mesh on its drive flank at delta = b + F / k of the static load, errors as at s = 0: the equilibrium
@@ -116,14 +115,14 @@ enum class CoordinateChoice { relative, full };
 /// The layout that a stage is integrated in.
 [[nodiscard]] Layout layout_of(const gear::Stage& stage, CoordinateChoice choice);
 
-/// @param stage  passes gear::problems_for_motion()
+/// @param stage  passes gear::problems_for_dynamics()
 /// @throws InputError for options that do not fit the boundary: printed gyroscopic terms with a free carrier do not
 ///         close in relative coordinates
 [[nodiscard]] DynamicModel make_dynamic_model(const gear::Stage& stage, const Scales& scales,
                                               double mesh_frequency_ratio, const ModelOptions& options,
                                               CoordinateChoice choice = CoordinateChoice::relative);
 
-/// What a model is made of, and a parameter may change.
+/// Data of a model that a parameter may change.
 struct OperatingPoint {
   gear::Stage stage;
   double mesh_frequency_ratio = 1;  ///< Omega [-]

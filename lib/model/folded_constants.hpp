@@ -1,4 +1,4 @@
-// What a stage's vector field is made of, for lanes, which know the number of planets.
+// The source of a stage's vector field, for lanes, which know the number of planets.
 #pragma once
 
 #include <cstddef>

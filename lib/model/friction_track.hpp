@@ -44,7 +44,7 @@ class FrictionTrack {
     return track;
   }
 
-  /// Ratios at a phase within half a turn of the place.
+  /// Ratios at a phase within half a period of the place.
   template <class T>
   [[nodiscard]] FrictionRatios<T> at(const Place& place, const T& phase) const {
     const auto values = track_.at(place, phase);
@@ -56,7 +56,7 @@ class FrictionTrack {
 
   [[nodiscard]] const RowSpacing& spacing() const { return track_.spacing(); }
 
-  /// What the rows of each piece stand on, if they are computed ones.
+  /// The grids of the rows between breakpoints, if the rows are computed.
   [[nodiscard]] const std::vector<IntervalGrid>& grids() const { return grids_; }
   /// Greatest error of a ratio between the rows, where they are those of something known [-].
   [[nodiscard]] double error() const { return error_; }

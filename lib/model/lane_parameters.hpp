@@ -21,8 +21,8 @@ namespace epicyclic::model {
 /// The interval of its table that each lane is in.
 template <std::size_t W>
 struct LaneInterval {
-  Lanes<W> x;           ///< phase without whole turns
-  LaneWords<W> number;  ///< counted from the piece's first one; a guess where intervals are on no grid
+  Lanes<W> x;           ///< phase without whole periods
+  LaneWords<W> number;  ///< counted from the first one of the segment; a guess where intervals are on no grid
   Lanes<W> t;           ///< what is beyond its start, where they are
 };
 
@@ -32,16 +32,16 @@ struct LanePlace {
   using Track = PeriodicTrack<K>;
 
   std::array<const Track*, W> track{};
-  std::array<TrackPiece, W> piece{};
+  std::array<TrackSegment, W> track_segments{};
   std::array<const Cubics<K>*, W> cubics{};
   Lanes<W> centre, origin, slope, offset, last;
   LaneWords<W> first_bits, shift;
   bool regular = false;  ///< in all lanes
 
   void set(std::size_t lane, const Track& of, const TrackPlace& place) {
-    const TrackPiece& p = place.piece;
+    const TrackSegment& p = place.segment;
     track[lane] = &of;
-    piece[lane] = p;
+    track_segments[lane] = p;
     cubics[lane] = of.cubics(p);
     centre.set(lane, place.centre);
     origin.set(lane, p.origin);
@@ -51,10 +51,10 @@ struct LanePlace {
     first_bits.set(lane, p.grid.first_bits());
     shift.set(lane, static_cast<std::uint64_t>(p.grid.shift));
     regular = true;
-    for (std::size_t k = 0; k < W; ++k) regular = regular && track[k] != nullptr && piece[k].regular;
+    for (std::size_t k = 0; k < W; ++k) regular = regular && track[k] != nullptr && track_segments[k].regular;
   }
 
-  /// @param phase  each lane's, within half a turn of its place, whole turns apart
+  /// @param phase  each lane's, within half a period of its place, modulo whole periods
   [[nodiscard]] LaneInterval<W> find(const Lanes<W>& phase) const {
     LaneInterval<W> found;
     found.x = phase - nearest_whole(phase - centre);
@@ -75,8 +75,8 @@ struct LanePlace {
     std::array<Row<double, K>, W> rows;
     for (std::size_t lane = 0; lane < W; ++lane) {
       const auto number = static_cast<std::size_t>(found.number[lane]);
-      rows[lane] = piece[lane].regular ? cubics_at(cubics[lane][number], found.t[lane])
-                                       : track[lane]->at(piece[lane], found.x[lane], number);
+      rows[lane] = track_segments[lane].regular ? cubics_at(cubics[lane][number], found.t[lane])
+                                                : track[lane]->at(track_segments[lane], found.x[lane], number);
     }
     return transposed<W, K>(rows);
   }
@@ -153,7 +153,7 @@ void LaneParameters<N, W>::check(const Parameters<double, N>& p) const {
   const auto mesh_fits = [](const MeshParameters<double, N>& m, const MeshParameters<Lanes<W>, N>& to) {
     bool alike = m.harmonics == to.harmonics && (m.friction != nullptr) == (to.friction != nullptr) &&
                  (m.stiffness_curve != nullptr) == (to.stiffness_curve != nullptr);
-    for (std::size_t i = 0; i < N; ++i) alike = alike && m.turns[i] == to.turns[i];
+    for (std::size_t i = 0; i < N; ++i) alike = alike && m.phase_cycles[i] == to.phase_cycles[i];
     return alike;
   };
   if (!mesh_fits(p.sun_planet, own.sun_planet) || !mesh_fits(p.ring_planet, own.ring_planet) ||

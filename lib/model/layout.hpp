@@ -1,4 +1,4 @@
-// Where each coordinate of the stage stands in the state, and which member the rotations are measured from.
+// The place of each coordinate of the stage in the state, and the member from which rotations are measured.
 //
 // Full coordinates (3N + 9, Eq. (12)): translations x, y and rotations u = r theta of sun, planets, ring and carrier.
 // They contain one rigid rotation. It is eliminated by measuring rotations relative to one member [M-rel]:

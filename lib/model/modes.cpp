@@ -16,8 +16,8 @@ namespace {
 constexpr double same_frequency = 1e-7;
 // Squares of rigid-body frequencies come out at rounding level of the largest square.
 constexpr double rigid_body_square = 1e-11;
-// A share of motion below this is none: rounding of eigenvectors, squared, with a wide margin.
-constexpr double no_motion = 1e-9;
+// A share of kinetic energy below this is none: rounding of eigenvectors, squared, with a wide margin.
+constexpr double no_share = 1e-9;
 
 template <std::size_t N>
 class Assembly {
@@ -93,19 +93,19 @@ class Assembly {
   LinearStage linear_;
 };
 
-/// Orthonormal basis of the motions that the constraints leave free.
-Eigen::MatrixXd free_motions(const LinearStage& linear) {
+/// Orthonormal basis of the displacements that the constraints leave free.
+Eigen::MatrixXd free_displacements(const LinearStage& linear) {
   const Eigen::Index n = linear.mass.size();
   if (linear.constraints.rows() == 0) return Eigen::MatrixXd::Identity(n, n);
   return null_space(linear.constraints);
 }
 
-/// M-weighted shares of a shape's motion.
+/// M-weighted shares of a shape's displacement.
 struct Shares {
   double central_translation = 0, central_rotation = 0;
 };
 
-/// Diagonal weights that tell the two kinds of central motion apart: 1 and 2; planets 0.
+/// Diagonal weights of the two kinds of central displacement: 1 and 2; planets 0.
 Eigen::VectorXd central_weights(int planets) {
   const auto n = static_cast<std::size_t>(planets);
   Eigen::VectorXd w = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(degrees_of_freedom(Layout::full, n)));
@@ -120,13 +120,13 @@ ModeType classify(const Eigen::VectorXd& shape, const Eigen::VectorXd& mass, con
   Shares shares;
   double total = 0.0;
   for (Eigen::Index k = 0; k < shape.size(); ++k) {
-    const double motion = mass(k) * shape(k) * shape(k);
-    total += motion;
-    if (weights(k) == 1.0) shares.central_translation += motion;
-    if (weights(k) == 2.0) shares.central_rotation += motion;
+    const double kinetic = mass(k) * shape(k) * shape(k);
+    total += kinetic;
+    if (weights(k) == 1.0) shares.central_translation += kinetic;
+    if (weights(k) == 2.0) shares.central_rotation += kinetic;
   }
-  const bool translates = shares.central_translation > no_motion * total;
-  const bool rotates = shares.central_rotation > no_motion * total;
+  const bool translates = shares.central_translation > no_share * total;
+  const bool rotates = shares.central_rotation > no_share * total;
   if (rotates) return translates ? ModeType::other : ModeType::rotational;
   return translates ? ModeType::translational : ModeType::planet;
 }
@@ -154,11 +154,11 @@ std::string_view to_string(Element element) {
   return names[static_cast<std::size_t>(element)];
 }
 
-std::string_view to_string(Motion motion) {
-  static constexpr std::array<std::string_view, motion_count> names = {
+std::string_view to_string(MemberDisplacement displacement) {
+  static constexpr std::array<std::string_view, displacement_count> names = {
       "sun_translation",  "sun_rotation",  "planet_translation",  "planet_rotation",
       "ring_translation", "ring_rotation", "carrier_translation", "carrier_rotation"};
-  return names[static_cast<std::size_t>(motion)];
+  return names[static_cast<std::size_t>(displacement)];
 }
 
 ModalEnergies modal_energies(const LinearStage& linear, const Mode& mode, int planets) {
@@ -175,26 +175,26 @@ ModalEnergies modal_energies(const LinearStage& linear, const Mode& mode, int pl
     for (double& share : e.elastic) share /= elastic;
 
   double kinetic = 0.0;
-  const auto add = [&](Motion motion, std::size_t slot) {
+  const auto add = [&](MemberDisplacement displacement, std::size_t slot) {
     const auto k = static_cast<Eigen::Index>(slot);
     const double energy = linear.mass(k) * mode.shapes.row(k).squaredNorm();
-    e.kinetic[static_cast<std::size_t>(motion)] += energy;
+    e.kinetic[static_cast<std::size_t>(displacement)] += energy;
     kinetic += energy;
   };
-  add(Motion::sun_translation, Slots::x_s);
-  add(Motion::sun_translation, Slots::y_s);
-  add(Motion::sun_rotation, Slots::w_s);
+  add(MemberDisplacement::sun_translation, Slots::x_s);
+  add(MemberDisplacement::sun_translation, Slots::y_s);
+  add(MemberDisplacement::sun_rotation, Slots::w_s);
   for (std::size_t i = 0; i < n; ++i) {
-    add(Motion::planet_translation, Slots::x_p(i));
-    add(Motion::planet_translation, Slots::y_p(i));
-    add(Motion::planet_rotation, Slots::w_p(i));
+    add(MemberDisplacement::planet_translation, Slots::x_p(i));
+    add(MemberDisplacement::planet_translation, Slots::y_p(i));
+    add(MemberDisplacement::planet_rotation, Slots::w_p(i));
   }
-  add(Motion::ring_translation, Slots::x_r(n));
-  add(Motion::ring_translation, Slots::y_r(n));
-  add(Motion::ring_rotation, Slots::u_r(n));
-  add(Motion::carrier_translation, Slots::x_c(n));
-  add(Motion::carrier_translation, Slots::y_c(n));
-  add(Motion::carrier_rotation, Slots::u_c(Layout::full, n));
+  add(MemberDisplacement::ring_translation, Slots::x_r(n));
+  add(MemberDisplacement::ring_translation, Slots::y_r(n));
+  add(MemberDisplacement::ring_rotation, Slots::u_r(n));
+  add(MemberDisplacement::carrier_translation, Slots::x_c(n));
+  add(MemberDisplacement::carrier_translation, Slots::y_c(n));
+  add(MemberDisplacement::carrier_rotation, Slots::u_c(Layout::full, n));
   for (double& share : e.kinetic) share /= kinetic;
   // Shares at rounding level of the shapes are none.
   constexpr double rounding = 1e-20;
@@ -209,7 +209,7 @@ LinearStage linear_stage(const gear::Stage& stage, const Scales& scales) {
 
 std::vector<Mode> modes(const gear::Stage& stage, const Scales& scales) {
   const LinearStage linear = linear_stage(stage, scales);
-  const Eigen::MatrixXd basis = free_motions(linear);
+  const Eigen::MatrixXd basis = free_displacements(linear);
   const Eigen::MatrixXd mass = transposed_product(linear.mass.asDiagonal() * basis, basis);
   const Eigen::MatrixXd stiffness = product(transposed_product(basis, linear.stiffness), basis);
   const SymmetricModes solution = symmetric_modes(stiffness, mass);

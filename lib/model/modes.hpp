@@ -4,13 +4,13 @@
 //   [M-K]
 //
 // l: the rows of the deflections (model/right_hand_side.hpp), mean stiffness, gaps closed, no rotation. Supports and
-// planet bearings may be 0, finite or rigid; a rigid one is a constraint, and the motion left free is found by an
-// orthogonal basis. Source: Lin and Parker, J. Vib. Acoust. 121 (1999) 316, whose classification is used:
+// planet bearings may be 0, finite or rigid; a rigid one is a constraint, and an orthogonal basis spans the
+// displacements left free. Source: Lin and Parker, J. Vib. Acoust. 121 (1999) 316, whose classification is used:
 //
 //   rotational     central members only rotate        translational  central members only translate
 //   planet         only planets move                  other          none of these (unequal spacing)
 //
-// Types are told from the shapes, by the share of M-weighted motion; where frequencies of two types coincide their
+// Types follow from the shapes, by the share of M-weighted displacement. If frequencies of two types coincide, their
 // subspace is split first. Limits: undamped, no gyroscopic terms.
 #pragma once
 
@@ -33,7 +33,7 @@ enum class ModeType { rotational, translational, planet, other };
 
 /// All shapes of one type at one frequency.
 struct Mode {
-  double frequency_ratio = 0;  ///< omega / omega_sn; exactly 0 for rigid motion
+  double frequency_ratio = 0;  ///< omega / omega_sn; exactly 0 for a rigid-body mode
   ModeType type = ModeType::other;
   int multiplicity = 1;
   Eigen::MatrixXd shapes;  ///< (3N + 9) x multiplicity, slots of Layout::full, shape' M shape = 1 (M in m_0)
@@ -66,15 +66,15 @@ struct Spring {
 struct LinearStage {
   Eigen::VectorXd mass;         ///< 3N + 9 [m_0]
   Eigen::MatrixXd stiffness;    ///< (3N + 9) x (3N + 9) [m_0 omega_sn^2]
-  Eigen::MatrixXd constraints;  ///< c x (3N + 9): rows that vanish on every motion
+  Eigen::MatrixXd constraints;  ///< c x (3N + 9): rows whose product with every possible displacement is 0
   std::vector<Spring> springs;  ///< those that make up the stiffness
 };
 
 /// @param stage  passes gear::problems_for_modes()
 [[nodiscard]] LinearStage linear_stage(const gear::Stage& stage, const Scales& scales);
 
-/// Motions that kinetic energy is told apart by.
-enum class Motion {
+/// Displacements whose shares of the kinetic energy are separate.
+enum class MemberDisplacement {
   sun_translation,
   sun_rotation,
   planet_translation,
@@ -84,15 +84,15 @@ enum class Motion {
   carrier_translation,
   carrier_rotation,
 };
-inline constexpr std::size_t motion_count = 8;
+inline constexpr std::size_t displacement_count = 8;
 
-[[nodiscard]] std::string_view to_string(Motion motion);
+[[nodiscard]] std::string_view to_string(MemberDisplacement displacement);
 
-/// Shares of a mode's elastic and kinetic energy; each kind adds up to 1 (elastic: 0 for rigid motion). Means over the
-/// shapes of a multiple mode, which do not depend on the choice of shapes.
+/// Shares of a mode's elastic and kinetic energy; each kind adds up to 1 (elastic: 0 for rigid-body modes). Means over
+/// the shapes of a multiple mode, which do not depend on the choice of shapes.
 struct ModalEnergies {
   std::array<double, element_count> elastic{};
-  std::array<double, motion_count> kinetic{};
+  std::array<double, displacement_count> kinetic{};
 };
 
 /// @param planets  N

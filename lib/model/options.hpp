@@ -5,11 +5,11 @@ namespace epicyclic::model {
 
 /// Damping of a mesh when its gap is open (docs/theory/model.md, section 2).
 enum class GapDamping {
-  always,         ///< c delta': Eq. (27) as printed; acts through the open gap and can pull
+  always,         ///< c delta': Eq. (27) as printed; acts through the open gap, also as a tensile force
   contact_slope,  ///< c f_w'(delta) delta': weighted by the slope of the smooth clearance
 };
 
-/// Terms with omega_c of the frame that turns with the carrier (docs/theory/model.md, section 3).
+/// Terms with omega_c of the frame that rotates with the carrier (docs/theory/model.md, section 3).
 enum class Gyroscopic {
   automatic,    ///< printed for `as_printed`, invariant where the carrier is free
   off,          ///< none

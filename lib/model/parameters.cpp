@@ -38,7 +38,8 @@ std::vector<double> kept(const std::vector<double>& values, const std::vector<st
   return r;
 }
 
-/// Rows of a smooth function can do with every second one, at an error that tells theirs; others are what they are.
+/// Every second row of a smooth function is sufficient for an estimate of the error of all rows. Other rows stay as
+/// they are.
 gear::StiffnessCurve halved(gear::StiffnessCurve curve) {
   if (curve.interpolation != Interpolation::smooth) return curve;
   const auto rows = every_second(curve.phase, curve.breakpoints);
@@ -54,8 +55,8 @@ gear::EhlFriction halved(gear::EhlFriction e) {
   return e;
 }
 
-/// Completes a mesh whose sines and cosines stand already.
-/// @param mesh_cycles  mesh phase of a planet per turn of its angle: -z_s or +z_r
+/// Completes a mesh whose sines and cosines are known.
+/// @param mesh_cycles  mesh phase of a planet per revolution of its angle: -z_s or +z_r
 template <std::size_t N>
 void fill_mesh(MeshParameters<double, N>& m, const gear::Mesh& mesh, const std::vector<double>& angles_deg,
                int mesh_cycles, double lead, double effective_mass, const Scales& scales, bool halve) {
@@ -70,24 +71,24 @@ void fill_mesh(MeshParameters<double, N>& m, const gear::Mesh& mesh, const std::
   m.stiffness_cos.resize(m.harmonics);
   m.stiffness_sin.resize(m.harmonics);
   for (std::size_t i = 0; i < N; ++i) {
-    m.turns[i] = wrapped(mesh_cycles * (angles_deg[i] - angles_deg[0]) / 360.0 + lead);
+    m.phase_cycles[i] = wrapped(mesh_cycles * (angles_deg[i] - angles_deg[0]) / 360.0 + lead);
     for (std::size_t h = 0; h < m.harmonics; ++h) {
-      // A cos h(s + psi) + B sin h(s + psi), psi = 2 pi turns
+      // A cos h(s + psi) + B sin h(s + psi), psi = 2 pi phase_cycles
       const double c = h < mesh.stiffness_cos_N_per_m.size() ? scales.stiffness(mesh.stiffness_cos_N_per_m[h]) : 0.0;
       const double s = h < mesh.stiffness_sin_N_per_m.size() ? scales.stiffness(mesh.stiffness_sin_N_per_m[h]) : 0.0;
-      const double psi = static_cast<double>(h + 1) * two_pi * m.turns[i];
+      const double psi = static_cast<double>(h + 1) * two_pi * m.phase_cycles[i];
       m.stiffness_cos[h][i] = c * std::cos(psi) + s * std::sin(psi);
       m.stiffness_sin[h][i] = s * std::cos(psi) - c * std::sin(psi);
     }
     const double amplitude = scales.displacement(per_planet(mesh.error_amplitude_um, i) * 1e-6);
-    const double theta = two_pi * m.turns[i] + per_planet(mesh.error_phase_deg, i) * radian;
+    const double theta = two_pi * m.phase_cycles[i] + per_planet(mesh.error_phase_deg, i) * radian;
     m.error_cos[i] = amplitude * std::sin(theta);
     m.error_sin[i] = amplitude * std::cos(theta);
   }
   constexpr double rounding = 1e-9;  // of a mesh period
   m.in_phase = true;
-  for (const double turns : m.turns) {
-    const double apart = turns - m.turns[0];
+  for (const double cycles : m.phase_cycles) {
+    const double apart = cycles - m.phase_cycles[0];
     m.in_phase = m.in_phase && std::abs(apart - std::round(apart)) <= rounding;
   }
 }
@@ -104,7 +105,7 @@ gear::FrictionTable lubricated_table(const gear::EhlFriction& e, const gear::Lin
   return gear::friction_table(halved(e), line, load, grids);
 }
 
-/// @param lead  what turns the common phase of a given table into the mesh's own phase; a path has its own phase
+/// @param lead  difference from the common phase of a given table to the mesh's own phase; a path has its own phase
 ///              already
 std::shared_ptr<const FrictionTrack> make_track(const gear::Friction& friction, const gear::Stage& stage,
                                                 gear::LineOfAction (*line_of)(const gear::Stage&), double lead,
@@ -123,7 +124,7 @@ template <std::size_t N>
 void append_breakpoints(const MeshParameters<double, N>& mesh, std::vector<double>& phases) {
   const auto append = [&](const std::vector<double>& own_phases) {
     for (std::size_t i = 0; i < N; ++i)
-      for (const double own : own_phases) phases.push_back(wrapped(own - mesh.turns[i]));
+      for (const double own : own_phases) phases.push_back(wrapped(own - mesh.phase_cycles[i]));
   };
   const auto append_of = [&](const auto& track) {
     append(track.breakpoints());
@@ -133,12 +134,12 @@ void append_breakpoints(const MeshParameters<double, N>& mesh, std::vector<doubl
   if (mesh.stiffness_curve) append_of(*mesh.stiffness_curve);
 }
 
-/// d of [M-rows] of one kind of mesh at a common phase, in s. The highest of H harmonics is sampled twice a wave.
+/// d of [M-rows] of one kind of mesh at a common phase, in s. The highest of H harmonics is sampled twice a period.
 template <std::size_t N>
 double sampling_interval(const MeshParameters<double, N>& mesh, double common_phase) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < N; ++i) {
-    const double own = common_phase + mesh.turns[i];
+    const double own = common_phase + mesh.phase_cycles[i];
     if (mesh.friction) least = std::min(least, mesh.friction->spacing().at(own));
     if (mesh.stiffness_curve) least = std::min(least, mesh.stiffness_curve->spacing().at(own));
   }
@@ -150,8 +151,8 @@ template <std::size_t N>
 MeshPlaces<N> places(const MeshParameters<double, N>& mesh, double common_phase) {
   MeshPlaces<N> r{};
   for (std::size_t i = 0; i < N; ++i) {
-    if (mesh.friction) r.friction[i] = mesh.friction->place(common_phase + mesh.turns[i]);
-    if (mesh.stiffness_curve) r.stiffness[i] = mesh.stiffness_curve->place(common_phase + mesh.turns[i]);
+    if (mesh.friction) r.friction[i] = mesh.friction->place(common_phase + mesh.phase_cycles[i]);
+    if (mesh.stiffness_curve) r.stiffness[i] = mesh.stiffness_curve->place(common_phase + mesh.phase_cycles[i]);
   }
   return r;
 }
@@ -164,7 +165,7 @@ void make_segments(Parameters<double, N>& p) {
   std::sort(phases.begin(), phases.end());
   phases.erase(std::unique(phases.begin(), phases.end(), [](double a, double b) { return b - a < phase_resolution; }),
                phases.end());
-  // Segments are shorter than a turn, so that a phase tells the start of one from its end.
+  // Segments are shorter than a period, so that a phase distinguishes the start of one from its end.
   if (phases.size() == 1) phases.push_back(wrapped(phases[0] + 0.5));
   std::sort(phases.begin(), phases.end());
   const auto add_segment = [&](double inside) {

@@ -1,7 +1,7 @@
 // Dimensionless constants of one operating point, folded once before integration.
 //
 // Everything that a right-hand side needs and nothing that it could compute itself: sines and cosines of fixed angles,
-// inverse masses, Fourier coefficients already turned into each planet's phase, so that with s the common mesh phase
+// inverse masses, Fourier coefficients already rotated to each planet's phase, so that with s the common mesh phase
 //
 //   s_spi = s - z_s (phi_i - phi_1) ,  s_rpi = s + z_r (phi_i - phi_1) + 2 pi lambda_sr                  [M-phase]
 //   k_i(s) = k_0 + sum_h [ C_hi cos h s + S_hi sin h s ]  or a table over s_i                            [M-4]
@@ -39,7 +39,7 @@ struct MeshParameters {
   Row<T, N> error_cos{}, error_sin{};                       ///< a_i, b_i
   std::shared_ptr<const PeriodicTrack<1>> stiffness_curve;  ///< in place of k_0 and harmonics; null without
   std::shared_ptr<const FrictionTrack> friction;            ///< null without friction
-  Row<double, N> turns{};                                   ///< mesh phase of planet i over 2 pi, at s = 0
+  Row<double, N> phase_cycles{};                            ///< mesh phase of planet i over 2 pi, at s = 0
   bool in_phase = false;                                    ///< the same for all planets, to rounding
 };
 
@@ -93,10 +93,10 @@ template <std::size_t N>
 
 /// Folds a stage at one operating point.
 ///
-/// @param stage   passes gear::problems_for_motion()
+/// @param stage   passes gear::problems_for_dynamics()
 /// @param scales  those of the stage as given, whatever a sweep has changed in `stage` since
 /// @param mesh_frequency_ratio Omega [-]
-/// @param like    whose computed tables' grids are taken, so that rows can be compared; null: as their errors ask
+/// @param like    whose computed tables' grids are taken, so that rows can be compared; null: as their errors require
 /// @throws InputError for options that do not fit the boundary
 template <std::size_t N>
 [[nodiscard]] Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& scales,
@@ -157,7 +157,7 @@ template <class T, std::size_t N>
     to.stiffness_sin.resize(from.stiffness_sin.size());
     to.stiffness_curve = from.stiffness_curve;
     to.friction = from.friction;
-    to.turns = from.turns;
+    to.phase_cycles = from.phase_cycles;
     to.in_phase = from.in_phase;
   };
   mesh(p.sun_planet, r.sun_planet);

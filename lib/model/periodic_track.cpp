@@ -27,8 +27,8 @@ PeriodicTrack<K>::PeriodicTrack(const std::vector<TrackRow<K>>& given_rows,
     spacing_ = RowSpacing(phases, rows_per_feature);
   }
 
-  const auto shifted = [](Row r, double turns) {
-    r.phase += turns;
+  const auto shifted = [](Row r, double cycles) {
+    r.phase += cycles;
     return r;
   };
 
@@ -41,7 +41,7 @@ PeriodicTrack<K>::PeriodicTrack(const std::vector<TrackRow<K>>& given_rows,
       const std::size_t at = k + n * (neighbours + 1) - neighbours;
       extended.push_back(shifted(rows[at % n], static_cast<double>(at / n) - static_cast<double>(neighbours + 1)));
     }
-    append_piece(extended, neighbours, interpolation, nullptr);
+    append_segment(extended, neighbours, interpolation, nullptr);
     return;
   }
 
@@ -50,60 +50,60 @@ PeriodicTrack<K>::PeriodicTrack(const std::vector<TrackRow<K>>& given_rows,
     const double from = given_breakpoints[b] + lead;
     const bool wraps = b + 1 == breaks;
     const double to = wraps ? (given_breakpoints[0] + lead) + 1.0 : given_breakpoints[b + 1] + lead;
-    std::vector<Row> piece;
-    for (int turn = 0; turn < 2; ++turn)
+    std::vector<Row> segment_rows;
+    for (int cycle = 0; cycle < 2; ++cycle)
       for (std::size_t k = 0; k < rows.size(); ++k) {
-        const Row r = shifted(rows[k], turn);
+        const Row r = shifted(rows[k], cycle);
         const bool twin_before = k > 0 && rows[k - 1].phase == rows[k].phase;
         const bool twin_after = k + 1 < rows.size() && rows[k + 1].phase == rows[k].phase;
         const bool starts_here = r.phase == from && !twin_after;
         const bool ends_here = r.phase == to && !twin_before;
-        if (starts_here || ends_here || (r.phase > from && r.phase < to)) piece.push_back(r);
+        if (starts_here || ends_here || (r.phase > from && r.phase < to)) segment_rows.push_back(r);
       }
-    append_piece(piece, 0, interpolation, grids.empty() ? nullptr : &grids[b]);
+    append_segment(segment_rows, 0, interpolation, grids.empty() ? nullptr : &grids[b]);
     breakpoints_.push_back(wrapped(from));
   }
   std::sort(breakpoints_.begin(), breakpoints_.end());
 }
 
 template <std::size_t K>
-void PeriodicTrack<K>::append_piece(const std::vector<TrackRow<K>>& rows, std::size_t beyond,
-                                    Interpolation interpolation, const IntervalGrid* grid) {
+void PeriodicTrack<K>::append_segment(const std::vector<TrackRow<K>>& rows, std::size_t beyond,
+                                      Interpolation interpolation, const IntervalGrid* grid) {
   if (rows.size() < 2 + 2 * beyond)
     throw InputError("table over the phase: an interval between two breakpoints needs a row at each of its ends");
   const std::size_t count = rows.size() - 1 - 2 * beyond;
   const double from = rows[beyond].phase;
   const double to = rows[beyond + count].phase;
-  TrackPiece piece;
-  piece.lo = starts_.size();
-  piece.grid = grid != nullptr ? *grid : IntervalGrid::even(count);
-  piece.start = from;
-  piece.origin = piece.grid.from_end ? to : from;
-  piece.slope = piece.grid.scale / (piece.grid.from_end ? from - to : to - from);
-  if (piece.grid.count != count) throw InputError("table over the phase: rows that are not those of their grid");
+  TrackSegment segment;
+  segment.lo = starts_.size();
+  segment.grid = grid != nullptr ? *grid : IntervalGrid::even(count);
+  segment.start = from;
+  segment.origin = segment.grid.from_end ? to : from;
+  segment.slope = segment.grid.scale / (segment.grid.from_end ? from - to : to - from);
+  if (segment.grid.count != count) throw InputError("table over the phase: rows that are not those of their grid");
 
   // In the order of the grid.
   std::vector<TrackRow<K>> ordered = rows;
-  if (piece.grid.from_end) std::reverse(ordered.begin(), ordered.end());
+  if (segment.grid.from_end) std::reverse(ordered.begin(), ordered.end());
   constexpr double rounding = 1e-9;  // of an interval
   constexpr double phase_rounding = 1e-12;
-  piece.regular = true;
+  segment.regular = true;
   for (std::size_t k = 0; k <= count; ++k) {
-    const double off = std::abs(piece.place(ordered[beyond + k].phase) - piece.grid.node(k));
+    const double off = std::abs(segment.place(ordered[beyond + k].phase) - segment.grid.node(k));
     if (grid != nullptr) {
-      if (!(off <= phase_rounding * std::abs(piece.slope)))
+      if (!(off <= phase_rounding * std::abs(segment.slope)))
         throw InputError("table over the phase: rows that are not those of their grid");
     } else {
-      piece.regular = piece.regular && off <= rounding;  // intervals of an even grid are 1 long
+      segment.regular = segment.regular && off <= rounding;  // intervals of an even grid are 1 long
     }
   }
 
   std::vector<double> x;
   for (std::size_t k = 0; k < ordered.size(); ++k) {
     const bool inside = k >= beyond && k <= beyond + count;
-    x.push_back(!piece.regular ? ordered[k].phase
-                : inside       ? piece.grid.node(k - beyond)
-                               : piece.place(ordered[k].phase));
+    x.push_back(!segment.regular ? ordered[k].phase
+                : inside         ? segment.grid.node(k - beyond)
+                                 : segment.place(ordered[k].phase));
   }
   for (std::size_t k = 0; k < count; ++k) {
     starts_.push_back(ordered[beyond + k].phase);
@@ -114,20 +114,20 @@ void PeriodicTrack<K>::append_piece(const std::vector<TrackRow<K>>& rows, std::s
     for (const auto& r : ordered) y.push_back(r.value[j]);
     const std::vector<CubicCoefficients> c = cubics_through(interpolation, x, y, beyond, count);
     for (std::size_t k = 0; k < count; ++k)
-      for (std::size_t power = 0; power < 4; ++power) cubics_[piece.lo + k][power][j] = c[k][power];
+      for (std::size_t power = 0; power < 4; ++power) cubics_[segment.lo + k][power][j] = c[k][power];
   }
-  pieces_.push_back(piece);
+  segments_.push_back(segment);
 }
 
 template <std::size_t K>
 TrackPlace PeriodicTrack<K>::place(double phase) const {
-  const double origin = pieces_.front().start;
+  const double origin = segments_.front().start;
   // One smooth curve has no sides: its centre is that of its period.
-  if (breakpoints_.empty()) return {pieces_.front(), origin + 0.5};
+  if (breakpoints_.empty()) return {segments_.front(), origin + 0.5};
   const double x = phase - std::floor(phase - origin);
   std::size_t k = 0;
-  while (k + 1 < pieces_.size() && x >= pieces_[k + 1].start) ++k;
-  return {pieces_[k], x};
+  while (k + 1 < segments_.size() && x >= segments_[k + 1].start) ++k;
+  return {segments_[k], x};
 }
 
 template <std::size_t K>

@@ -1,10 +1,10 @@
 // K periodic functions given by one table over the mesh phase, ready to evaluate: cubics on intervals of the mesh's own
-// phase, grouped in pieces between breakpoints.
+// phase, grouped in segments between breakpoints.
 //
-//   within a piece a cubic on each interval [core/interpolation.hpp], extended by its outermost cubics beyond the
-//   piece, so that a step that ends on a breakpoint sees the left side [M-track]
+//   within a segment a cubic on each interval [core/interpolation.hpp], extended by its outermost cubics beyond the
+//   segment, so that a step that ends on a breakpoint gets the left side [M-track]
 //
-// Limits: rows as documented at gear::FrictionTable. Smoothness: C1 within a piece (C0 if straight); jumps at
+// Limits: rows as documented at gear::FrictionTable. Smoothness: C1 within a segment (C0 if straight); jumps at
 // breakpoints, which the integrator steps onto.
 #pragma once
 
@@ -26,12 +26,13 @@
 
 namespace epicyclic::model {
 
-/// Intervals that make one smooth piece. Their cubics are in powers of v - grid.node(k), v = grid.offset + (phase -
-/// origin) slope; where they do not lie on such a grid, in powers of phase - start, and the grid's number is a guess.
-struct TrackPiece {
+/// Intervals of one smooth segment. Their cubics are in powers of v - grid.node(k), v = grid.offset + (phase - origin)
+/// slope. If the intervals are not on such a grid, the cubics are in powers of phase - start, and the grid's number is
+/// a guess.
+struct TrackSegment {
   std::size_t lo = 0;  ///< first interval
   IntervalGrid grid;
-  double start = 0;  ///< phase at which the piece begins
+  double start = 0;  ///< phase at which the segment begins
   double origin = 0, slope = 1;
   bool regular = false;  ///< the intervals are those of the grid, to rounding
 
@@ -42,10 +43,10 @@ struct TrackPiece {
   }
 };
 
-/// The piece that holds a phase, and where: phases are met within half a turn of it, so that they may count whole turns
-/// and a phase on a breakpoint is on the side of the place.
+/// The segment of a phase, and its centre. Phases are within half a period of the centre, modulo whole periods, so that
+/// a phase on a breakpoint is on the side of the place.
 struct TrackPlace {
-  TrackPiece piece;
+  TrackSegment segment;
   double centre = 0;
 };
 
@@ -64,16 +65,16 @@ class PeriodicTrack {
   /// @param given_rows   phases rising, a jump as two rows of one phase
   /// @param given_breakpoints  phases of the rows where the functions jump or kink
   /// @param lead         added to all phases
-  /// @param grids        what the rows of each piece stand on, in the order of the breakpoints; empty: found out. Rows
-  ///                     on grids are those of functions that are smooth between the breakpoints
+  /// @param grids        of the rows of each segment, in the order of the breakpoints; empty: derived from the rows.
+  ///                     Rows on grids are those of functions that are smooth between the breakpoints
   /// @param rows_per_feature  c of [M-rows] for rows that are on no grids
-  /// @throws InputError when a piece has no rows at its ends, or rows cannot be told apart
+  /// @throws InputError if a segment has no rows at its ends, or if two rows coincide
   PeriodicTrack(const std::vector<TrackRow<K>>& given_rows, const std::vector<double>& given_breakpoints, double lead,
                 Interpolation interpolation = Interpolation::monotone, std::span<const IntervalGrid> grids = {},
                 double rows_per_feature = 1.0);
 
-  /// These functions with their derivative with respect to a parameter, which they carry at a dual number, in its first
-  /// direction.
+  /// These functions with their derivative with respect to a parameter. At a dual number it is the derivative in the
+  /// first direction.
   /// @param near  the functions at the parameter's values - 2 h, - h, + h, + 2 h
   /// @throws InputError when the rows of those have other phases
   [[nodiscard]] PeriodicTrack with_parameter_derivative(const std::array<const PeriodicTrack*, 4>& near,
@@ -87,17 +88,17 @@ class PeriodicTrack {
 
   [[nodiscard]] TrackPlace place(double phase) const;
 
-  /// Values at a phase within half a turn of the place, whole turns apart, by the cubics of its piece.
+  /// Values at a phase within half a period of the place, modulo whole periods, by the cubics of its segment.
   template <class T>
   [[nodiscard]] Row<T, K> at(const TrackPlace& place, const T& phase) const {
-    const TrackPiece& piece = place.piece;
+    const TrackSegment& segment = place.segment;
     const T x = phase - T(nearest_whole(static_cast<double>(value_of(phase)) - place.centre));
-    const T v = piece.place(x);
-    std::size_t k = piece.grid.number(static_cast<double>(value_of(v)));
-    T t = v - piece.grid.node(k);
-    k += piece.lo;
-    if (!piece.regular) {
-      k = walked(piece, value_of(x), k);
+    const T v = segment.place(x);
+    std::size_t k = segment.grid.number(static_cast<double>(value_of(v)));
+    T t = v - segment.grid.node(k);
+    k += segment.lo;
+    if (!segment.regular) {
+      k = walked(segment, value_of(x), k);
       t = x - starts_[k];
     }
     if constexpr (std::is_same_v<T, double>) {
@@ -115,32 +116,32 @@ class PeriodicTrack {
     }
   }
 
-  /// What at() does after whole turns are taken off, where intervals do not lie on a grid.
-  /// @param x      within half a turn of the place's centre
-  /// @param guess  interval that x is in, or near, counted from the piece's first one; any number within the piece
-  [[nodiscard]] Row<double, K> at(const TrackPiece& piece, double x, std::size_t guess) const {
-    const std::size_t k = walked(piece, x, piece.lo + guess);
+  /// The value of at() without whole periods, if intervals do not lie on a grid.
+  /// @param x      within half a period of the place's centre
+  /// @param guess  interval that x is in, or near, counted from the segment's first one; any number within the segment
+  [[nodiscard]] Row<double, K> at(const TrackSegment& segment, double x, std::size_t guess) const {
+    const std::size_t k = walked(segment, x, segment.lo + guess);
     return cubics_at(cubics_[k], x - starts_[k]);
   }
-  [[nodiscard]] const Cubics<K>* cubics(const TrackPiece& piece) const { return cubics_.data() + piece.lo; }
+  [[nodiscard]] const Cubics<K>* cubics(const TrackSegment& segment) const { return cubics_.data() + segment.lo; }
 
  private:
   template <class V>
-  [[nodiscard]] std::size_t walked(const TrackPiece& piece, V x, std::size_t k) const {
-    while (k > piece.lo && x < starts_[k]) --k;
-    while (k < piece.hi() && x >= starts_[k + 1]) ++k;
+  [[nodiscard]] std::size_t walked(const TrackSegment& segment, V x, std::size_t k) const {
+    while (k > segment.lo && x < starts_[k]) --k;
+    while (k < segment.hi() && x >= starts_[k + 1]) ++k;
     return k;
   }
 
-  /// @param rows  of the piece, and `beyond` of its neighbours' at either end
-  /// @param grid  what they stand on; null: found out
-  void append_piece(const std::vector<TrackRow<K>>& rows, std::size_t beyond, Interpolation interpolation,
-                    const IntervalGrid* grid);
+  /// @param rows  of the segment, and `beyond` of its neighbours' at either end
+  /// @param grid  of the rows; null: derived from them
+  void append_segment(const std::vector<TrackRow<K>>& rows, std::size_t beyond, Interpolation interpolation,
+                      const IntervalGrid* grid);
 
   std::vector<double> starts_;  ///< phases where intervals begin; on a grid that counts from its end, where they end
   std::vector<Cubics<K>> cubics_;
   std::vector<Cubics<K>> parameter_cubics_;  ///< their derivatives with respect to a parameter; empty without one
-  std::vector<TrackPiece> pieces_;
+  std::vector<TrackSegment> segments_;
   std::vector<double> breakpoints_;
   RowSpacing spacing_;
 };

@@ -42,8 +42,8 @@ struct MeshCoefficients {
   Row<P, N> stiffness;                                ///< k_i(s)
   Row<P, N> friction, moment_driving, moment_driven;  ///< A, B_1 / r_b1, B_2 / r_b2; only with friction
   /// Planets that mesh in phase have one stiffness and one friction, and lanes take them once, as those of planet 0.
-  /// Where planets are in registers nothing is gained by it, and where constants carry derivatives they are each
-  /// planet's own.
+  /// This saves nothing if one register holds all planets. If constants have derivatives, the values are each planet's
+  /// own.
   bool shared = false;
 
   MeshCoefficients() = default;
@@ -68,8 +68,8 @@ struct MeshCoefficients {
 
   /// What tables do; of lanes model/kernels/lane_phase_coefficients.hpp.
   /// @param places  those of the current segment
-  void look_up(const MeshParameters<P, N>& mesh, const MeshPlaces<N>& places, const P& s) {
-    const auto own_phase = [&](std::size_t i) { return s * (0.5 * std::numbers::inv_pi) + mesh.turns[i]; };
+  void interpolate(const MeshParameters<P, N>& mesh, const MeshPlaces<N>& places, const P& s) {
+    const auto own_phase = [&](std::size_t i) { return s * (0.5 * std::numbers::inv_pi) + mesh.phase_cycles[i]; };
     if (mesh.stiffness_curve)
       stiffness =
           Row<P, N>::of([&](std::size_t i) { return mesh.stiffness_curve->at(places.stiffness[i], own_phase(i))[0]; });
@@ -119,8 +119,8 @@ struct PhaseCoefficients {
   /// @param segment  of p, that of s
   PhaseCoefficients(const Parameters<P, N>& p, std::size_t segment, const P& s)
       : PhaseCoefficients(p, HarmonicBasis<P>(sine_cosine(s), harmonics_of(p))) {
-    sun_planet.look_up(p.sun_planet, p.segments[segment].sun_planet, s);
-    ring_planet.look_up(p.ring_planet, p.segments[segment].ring_planet, s);
+    sun_planet.interpolate(p.sun_planet, p.segments[segment].sun_planet, s);
+    ring_planet.interpolate(p.ring_planet, p.segments[segment].ring_planet, s);
   }
 };
 

@@ -10,14 +10,14 @@
 // all dimensionless (model/scales.hpp), the prime d/d tau; the state is advanced in the mesh phase s = Omega tau, so
 // dy/ds = (dy/d tau) / Omega. Source: Tang et al. 2020, Eqs. (13)-(20), (27), in the consistent form of
 // docs/theory/model.md. Limits: isotropic planet bearings (k_pix = k_piy = k_picu), one half gap per kind of mesh; the
-// back flank keeps the line of action of the drive flank, as Eq. (27) does.
-// T is the scalar of the state, P that of the parameters and of the phase: the same, or dual numbers and plain ones, so
-// that tangents do not carry the derivatives of constants along.
-// Smoothness: C0 in the state with kinks at delta = +-b (analytic for w > 0); with contact-slope damping and w = 0 it
-// jumps there; in s analytic but for jumps of friction and of a stiffness curve at `breakpoints`.
+// back flank keeps the line of action of the drive flank, as Eq. (27) does. T is the scalar of the state, P that of the
+// parameters and of the phase: the same, or dual numbers and plain ones, so that tangents do not include the
+// derivatives of constants. Smoothness: C0 in the state with kinks at delta = +-b (analytic for w > 0); with
+// contact-slope damping and w = 0 it jumps there; in s analytic but for jumps of friction and of a stiffness curve at
+// `breakpoints`.
 //
-// Planets are gone through in groups. Where a register holds one value of each planet, all are one group; lanes take
-// them one by one, so that what a planet is worked on with stays in registers.
+// Planets are computed in groups. If a register holds one value of each planet, all are one group. Lanes take them one
+// by one, so that the values of a planet stay in registers.
 #pragma once
 
 #include <cstddef>
@@ -312,7 +312,7 @@ template <class T, class P, std::size_t N>
   return a;
 }
 
-/// From full accelerations to the combinations of them that the layout's relative coordinates are [M-rel].
+/// Combines full accelerations to those of the layout's relative coordinates [M-rel].
 template <class T, class P, std::size_t N>
 void make_relative(Layout layout, const Parameters<P, N>& p, Coordinates<T, N>& a) {
   switch (layout) {
@@ -364,9 +364,9 @@ template <class P, std::size_t N>
   return 4 * N + (gear::is_radial(p.sun_law) ? 1 : 4);
 }
 
-/// How far each contact is from where its clearance function has a kink: delta - b and delta + b of each planet's sun
-/// mesh and ring mesh, then of the sun's bearing x - b, x + b, y - b, y + b, or r - b of a radial law. Infinite where
-/// b = 0: what has no gap makes and loses no contact, and its force has no kink.
+/// Distance of each contact from the kink of its clearance function: delta - b and delta + b of each planet's sun mesh
+/// and ring mesh, then of the sun's bearing x - b, x + b, y - b, y + b, or r - b of a radial law. Infinite if b = 0:
+/// without a gap no contact opens or closes, and the force has no kink.
 ///
 /// @param y          as of right_hand_side()
 /// @param distances  contacts_of(p) numbers [b_c]

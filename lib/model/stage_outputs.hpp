@@ -1,17 +1,18 @@
-// What meshes and bearings do at an instant, at several instants at once.
+// Outputs of meshes and bearings at an instant, for several instants at once.
 //
 //   delta, F, k f(delta)  of each mesh [M-13], [M-14], [M-27];  |F_b| of the bearing between each planet and the
 //   carrier and of the sun's;  the transmission error of the stage
 //
 //   TE = u_s + u_r - u_c (cos alpha_sp + cos alpha_rp) ,  rotations on the base circles                        [S-te]
 //
-// TE is by how much the sun is ahead of what a rigid train without errors turns it to, along its lines of action: the
-// driving member against the driven one where the carrier (boundary `as_printed`, `star`) or the ring (`fixed_ring`)
-// stands, and a rigid rotation of the whole train is none. In relative coordinates it is w_s, with the torsion of the
-// member that is supported.
+// TE is the lead of the sun over its angle in a rigid train without errors, along its lines of action. It compares the
+// driving member with the driven one if the carrier (boundary `as_printed`, `star`) or the ring (`fixed_ring`) stands.
+// A rigid rotation of the whole train adds nothing. In relative coordinates it is w_s, with the torsion of the member
+// that is supported.
 //
-// Looks are at phases that come again each period, `phases_together` of them side by side: what the phase decides is
-// made once. Limits: none of its own. Smoothness: as the forces, model/right_hand_side.hpp.
+// Outputs are evaluated at phases that repeat each period, `phases_together` of them side by side. Coefficients that
+// depend on the phase alone are computed once. Limits: none of its own. Smoothness: as the forces,
+// model/right_hand_side.hpp.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +26,7 @@ namespace epicyclic::model {
 /// Instants side by side.
 inline constexpr std::size_t phases_together = 8;
 
-/// Where the numbers of a look at N planets stand; forces in m_0 omega_sn^2 b_c, the rest in b_c.
+/// Positions of the numbers of one evaluation with N planets; forces in m_0 omega_sn^2 b_c, the rest in b_c.
 struct OutputRows {
   std::size_t planets = 0;
 
@@ -48,9 +49,9 @@ struct OutputRows {
   [[nodiscard]] constexpr std::size_t count() const { return of_planet * planets + 2; }
 };
 
-/// Tension of a mesh [S-pull]: what of its damping is beyond the elastic force of the flank that it pulls at, the
-/// driving one but where the back is in contact. Teeth that lie on each other cannot pull; damping makes it, through
-/// the open gap or just before contact is lost.
+/// Tensile force of a mesh [S-tension]: the part of its damping that exceeds the elastic force of the loaded flank.
+/// This is the back flank if that is in contact, otherwise the drive flank. Real teeth transmit no tensile force.
+/// Damping causes it, through the open gap or just before contact is lost.
 /// @param force  F, of which `elastic` is no damping
 template <class T>
 [[nodiscard]] T tensile_force(const T& delta, double half_gap, const T& elastic, const T& force) {
@@ -62,10 +63,10 @@ template <class T>
   return select(tension > nothing, tension, nothing);
 }
 
-/// Looks at a group of phases: numbers `group` phases_together and on of those that it was made for.
+/// Evaluates outputs at a group of phases: numbers `group` phases_together and on of those that it was made for.
 ///
 /// @param states  the state at each of them, component by component: phases_together numbers each
-/// @param rows    OutputRows::count() rows of as many numbers; of phases that there are not they mean nothing
+/// @param rows    OutputRows::count() rows of as many numbers; undefined beyond the last phase
 using StageOutputs = std::function<void(std::size_t group, const double* states, double* rows)>;
 
 /// @param phases  in [0, 2 pi]

@@ -56,7 +56,7 @@ class AtRest {
 /// Newton's method from a state, which becomes the equilibrium.
 /// @param load  accelerations that the load alone makes
 /// @returns false where none was found; the state is then the last one
-bool settle(AtRest& stage, double s, double load, std::vector<double>& state) {
+bool converge(AtRest& stage, double s, double load, std::vector<double>& state) {
   constexpr int most_steps = 60;
   constexpr int most_halvings = 12;
   // Part of the load. Radii are given in digits, and a train whose torques do not balance by as much accelerates: a
@@ -141,7 +141,7 @@ std::vector<std::vector<double>> quasi_static_states(Layout layout, Parameters<d
   p.sun_planet.damping = p.ring_planet.damping = 0.0;  // or e' would load the meshes
   AtRest stage(layout, p);
   std::vector<AtRest> smoothed;
-  const auto settle_through_smooth_gaps = [&](double s, double load, std::vector<double>& state) {
+  const auto converge_through_smooth_gaps = [&](double s, double load, std::vector<double>& state) {
     if (smoothed.empty())
       for (const double width : {1.0, 0.3, 0.1, 0.03, 1e-2, 3e-3, 1e-3, 1e-4, 1e-5}) {
         if (width <= p.smoothing) break;
@@ -150,8 +150,8 @@ std::vector<std::vector<double>> quasi_static_states(Layout layout, Parameters<d
         wide.smoothing = width;
         smoothed.emplace_back(layout, wide);
       }
-    return std::ranges::all_of(smoothed, [&](AtRest& wide) { return settle(wide, s, load, state); }) &&
-           settle(stage, s, load, state);
+    return std::ranges::all_of(smoothed, [&](AtRest& wide) { return converge(wide, s, load, state); }) &&
+           converge(stage, s, load, state);
   };
   std::vector<std::vector<double>> all;
   std::vector<double> state = start;
@@ -161,9 +161,9 @@ std::vector<std::vector<double>> quasi_static_states(Layout layout, Parameters<d
       stage.evaluate(s, std::vector<double>(start.size(), 0.0));
       load = stage.acceleration().norm();
     }
-    if (!settle(stage, s, load, state)) {
+    if (!converge(stage, s, load, state)) {
       state = start;
-      if (!settle_through_smooth_gaps(s, load, state)) return {};
+      if (!converge_through_smooth_gaps(s, load, state)) return {};
     }
     all.push_back(state);
   }

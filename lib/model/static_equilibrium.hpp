@@ -2,15 +2,15 @@
 //
 //   a(q, s) = 0 ,  a the accelerations of [M-17]..[M-20] without velocities, e' = 0, omega_c = 0          [S-static]
 //
-// The second are the quasi-static solution: what a stage does that turns so slowly that no inertia, no damping and no
-// frame term acts. Gaps, moving stiffness, errors, the sun bearing's law and the friction of the operating point stay.
-// Masses divide the rows and do not move the solution. Where nothing holds the output (boundary `as_printed`) the train
+// The second are the quasi-static solution: that of a stage that rotates so slowly that no inertia, no damping and no
+// frame term acts. Gaps, varying stiffness, errors, the sun bearing's law and the friction of the operating point stay.
+// Masses divide the rows and do not move the solution. If nothing holds the output (boundary `as_printed`), the train
 // accelerates as one, and the relative coordinates are at rest.
 //
 // Newton's method, each phase from the one before; steps are halved until the accelerations fall. With exact gaps the
-// equations are linear while no contact changes. Where a step fails, the gaps are smoothed and sharpened again in
-// stages. Limits: one equilibrium is found where there may be several; forces are known to 1e-7 of the load.
-// Smoothness: C0 in s; it jumps where k(s) does.
+// equations are linear while no contact changes. If a step fails, the gaps are smoothed and sharpened again in stages.
+// Limits: one equilibrium is found where there may be several; forces are known to 1e-7 of the load. Smoothness: C0 in
+// s; it jumps where k(s) does.
 #pragma once
 
 #include <cstddef>

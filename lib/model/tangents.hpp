@@ -1,11 +1,11 @@
 // The right-hand side's derivatives at one operating point: along tangent vectors, and with respect to a parameter.
 //
 //   (dg/dy) v_j            the kernel on dual numbers
-//   dg/dp                  the kernel on dual numbers whose constants carry their own derivatives       [M-dp]
+//   dg/dp                  the kernel on dual numbers whose constants have their own derivatives          [M-dp]
 //
 // The state enters the kernel by dual numbers only, so both are exact where the kernel is. A folded constant's
 // derivative dP/dp is a difference of the fourth order over +-2 steps: the constants are smooth in p, so its error is
-// some 1e-11 of the constant; a kink of the motion is not differenced.
+// some 1e-11 of the constant; a kink of the trajectory is not differenced.
 #pragma once
 
 #include <array>

@@ -26,7 +26,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 using namespace figures::ink;
 
 std::string titled(const gear::Stage& stage, std::string_view what) {
-  return stage.name.empty() ? std::string(what) : fmt::format("{}:  {}", figures::literal_text(stage.name), what);
+  return stage.name.empty() ? std::string(what) : fmt::format("{}:  {}", figures::verbatim_text(stage.name), what);
 }
 
 GearFigure draw(const figures::Sketch& sketch, const fs::path& folder, const figures::FigureText& text,
@@ -222,7 +222,7 @@ std::vector<NamedBearing> bearings_of(const gear::Catalogue& catalogue) {
     if (!support) return;
     if (const auto data = gear::bearing_data(*support))
       bearings.push_back(
-          {fmt::format("{}, {}", member, figures::literal_text(data->name)), *support, data->coefficient()});
+          {fmt::format("{}, {}", member, figures::verbatim_text(data->name)), *support, data->coefficient()});
   };
   add("sun", catalogue.sun_bearing);
   add("carrier", catalogue.carrier.bearing);

@@ -28,8 +28,8 @@ std::string modes_csv(const gear::Stage& stage, const std::vector<model::Mode>& 
   std::vector<std::string> columns = {"mode", "frequency_Hz", "frequency_ratio", "type", "multiplicity"};
   for (std::size_t k = 0; k < model::element_count; ++k)
     columns.push_back("elastic_" + std::string(model::to_string(static_cast<model::Element>(k))));
-  for (std::size_t k = 0; k < model::motion_count; ++k)
-    columns.push_back("kinetic_" + std::string(model::to_string(static_cast<model::Motion>(k))));
+  for (std::size_t k = 0; k < model::displacement_count; ++k)
+    columns.push_back("kinetic_" + std::string(model::to_string(static_cast<model::MemberDisplacement>(k))));
   if (!ranges.empty()) columns.insert(columns.end(), {"frequency_low_Hz", "frequency_high_Hz"});
   const model::LinearStage linear = model::linear_stage(stage, scales);
   CsvWriter csv(columns);
@@ -253,7 +253,7 @@ GearOutput write_gear_output(const std::filesystem::path& path, const input::Loa
   const gear::Stage& stage = input.study.stage;
   const model::Scales scales = model::scales_of(stage);
   const std::vector<model::Mode> modes = model::modes(stage, scales);
-  const bool moves = gear::problems_for_motion(stage).empty();
+  const bool moves = gear::problems_for_dynamics(stage).empty();
   const double mesh_frequency = input.study.mesh_frequency_ratio * scales.omega_sn;
   const std::filesystem::path figures = path / "figures";
   Folder folder(path);

@@ -292,7 +292,7 @@ std::vector<Quantity> operating_quantities(const gear::Stage& stage, double mesh
   Group g(all, "Operating point");
   g.add("omega_sn", "ω_sn", scales.omega_sn, "rad/s", "[M-23]");
   g.add("frequency_sn", "ω_sn/2π", scales.omega_sn / (2.0 * std::numbers::pi), "Hz", "[M-23]");
-  if (!gear::problems_for_motion(stage).empty()) return all;
+  if (!gear::problems_for_dynamics(stage).empty()) return all;
   const double mesh_frequency = mesh_frequency_ratio * scales.omega_sn;
   const gear::Speeds speeds = gear::speeds(stage, mesh_frequency);
   const gear::Torques torques = gear::torques(stage, mesh_frequency);

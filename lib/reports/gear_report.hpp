@@ -62,11 +62,11 @@ struct GearPage {
                                     const std::vector<model::Mode>& modes, const model::Scales& scales);
 
 /// One sentence on teeth, speeds, torque and mesh stiffness at an operating point.
-/// @param stage  passes gear::problems_for_motion()
+/// @param stage  passes gear::problems_for_dynamics()
 [[nodiscard]] std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ratio);
 
 /// Amplitudes of the transmission error against the static deflection of both meshes at an operating point.
-/// @param stage  passes gear::problems_for_motion()
+/// @param stage  passes gear::problems_for_dynamics()
 [[nodiscard]] std::string error_words(const gear::Stage& stage, double mesh_frequency_ratio);
 
 /// A sentence on the mode with the most uncertain frequency.

@@ -201,7 +201,7 @@ double factor_of(const std::string& column, bool micrometres) {
 std::string unit_text(const std::string& unit, bool micrometres) {
   if (unit.empty() || unit == "1") return {};
   if (unit == "b_c") return micrometres ? "  [µm]" : " / b_c";
-  return "  [" + figures::literal_text(unit) + "]";
+  return "  [" + figures::verbatim_text(unit) + "]";
 }
 
 /// The parameter of a study, if it has one.
@@ -572,7 +572,7 @@ class Plot {
   void add_legend(figures::Sketch& sketch, bool by_direction) const {
     if (!alone())
       for (std::size_t k = 0; k < studies_.size(); ++k)
-        sketch.entry(figures::solid(colour_of(k), 2.5), figures::literal_text(studies_[k].label));
+        sketch.entry(figures::solid(colour_of(k), 2.5), figures::verbatim_text(studies_[k].label));
     if (by_direction)
       for (const bool down : {false, true})
         sketch.entry(figures::dots(alone() ? colour_of(down ? 1 : 0) : figures::ink::dark_grey, 0.8, down ? 6 : 7),
@@ -584,8 +584,8 @@ class Plot {
   }
 
   [[nodiscard]] std::string title() const {
-    if (!options_.title.empty()) return figures::literal_text(options_.title);
-    return alone() ? figures::literal_text(figure_title(*studies_.front().study)) : std::string();
+    if (!options_.title.empty()) return figures::verbatim_text(options_.title);
+    return alone() ? figures::verbatim_text(figure_title(*studies_.front().study)) : std::string();
   }
 
   [[nodiscard]] std::string abscissa_label() const {
@@ -692,7 +692,7 @@ std::string quantity_label(const std::string& column, bool micrometres) {
         return std::string(words) + symbol + unit;
   std::string words = d.words;
   if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
-  return figures::literal_text(words) + unit;
+  return figures::verbatim_text(words) + unit;
 }
 
 PlotOptions sound_options(const std::vector<PlottedStudy>& studies, PlotOptions options) {

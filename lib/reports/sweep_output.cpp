@@ -115,7 +115,7 @@ const char* column_of(SweepFigure figure) { return figure == SweepFigure::delta_
 
 figures::FigureText text_of(const SweepOutput& output, const studies::PointSource& points, SweepFigure figure) {
   figures::FigureText text{
-      figures::literal_text(output.title), parameter_label(output.sweep.axis.name),
+      figures::verbatim_text(output.title), parameter_label(output.sweep.axis.name),
       fmt::format("Poincaré points of  δ_{{{},1}} / b_c", figure == SweepFigure::delta_rp ? "rp" : "sp")};
   if (const auto direction = direction_of(figure))
     text.title += ", " + store::direction_word(output.sweep.directions[*direction]);
@@ -176,12 +176,12 @@ std::string parameter_label(const std::string& parameter) {
   if (const studies::NamedParameter* named = studies::find_parameter(parameter))
     return fmt::format("{}  {}{}", named->words, named->symbol, named->unit);
   const auto [words, unit] = quantity_words(parameter);
-  return figures::literal_text(words) + (unit.empty() ? std::string() : "  [" + unit + "]");
+  return figures::verbatim_text(words) + (unit.empty() ? std::string() : "  [" + unit + "]");
 }
 
 std::string parameter_symbol(const std::string& parameter) {
   const studies::NamedParameter* named = studies::find_parameter(parameter);
-  return named == nullptr ? figures::literal_text(quantity_words(parameter).words) : named->symbol;
+  return named == nullptr ? figures::verbatim_text(quantity_words(parameter).words) : named->symbol;
 }
 
 std::string speed_label(std::string_view key) {

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstddef>
+#include <new>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -195,9 +196,17 @@ std::string without_padding(std::string_view text) {
   return std::string(text.substr(0, text.find_last_not_of('\0') + 1));
 }
 
+/// HDF5 1.10 frees parts of an attribute twice if memory ends within a call: there has to be enough before it.
+/// @throws std::bad_alloc
+void require_memory() {
+  constexpr std::size_t enough = std::size_t{8} << 20;  // more than a call takes, its cache included
+  ::operator delete(::operator new(enough));
+}
+
 }  // namespace
 
 Hdf5File::Hdf5File(std::filesystem::path path) : path_(std::move(path)), disk_(path_) {
+  require_memory();
   const QuietErrors quiet;
   const Handle creation = untimed(H5P_FILE_CREATE);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -230,6 +239,7 @@ void Hdf5File::abandon() noexcept {
 }
 
 void Hdf5File::create_group(std::string_view path) {
+  require_memory();
   const QuietErrors quiet;
   const Handle creation = untimed(H5P_GROUP_CREATE);
   // One by one: HDF5's own creation of intermediate groups would give them time stamps.
@@ -249,6 +259,7 @@ void Hdf5File::create_group(std::string_view path) {
 /// @returns an identifier that the caller closes
 std::int64_t Hdf5File::create_dataset(std::string_view path, std::int64_t file_type, std::int64_t space,
                                       std::span<const unsigned long long> chunk, bool cached) {
+  require_memory();
   const std::string name(path);
   if (const auto slash = path.rfind('/'); slash != std::string_view::npos && slash > 0) {
     create_group(path.substr(0, slash));
@@ -541,6 +552,7 @@ void Hdf5File::write(std::string_view path, std::span<const std::int64_t> values
 
 void Hdf5File::write_attribute(std::string_view object, std::string_view name, std::int64_t file_type,
                                std::int64_t memory_type, const void* value, std::size_t count) {
+  require_memory();
   const QuietErrors quiet;
   const std::string label = fmt::format("the attribute {} of {}", name, object);
   const hsize_t extent = count;

@@ -338,7 +338,7 @@ class Explainer {
     const auto is_there = [&](const analysis::BranchLimit& limit) {
       return limit.place && limit.place->branch == r.branch && limit.place->point == r.point;
     };
-    if (r.kind == SpecialKind::flip && other.periodic && other.period == 2 * side.period && !other.branch) {
+    if (r.kind == SpecialKind::period_doubling && other.periodic && other.period == 2 * side.period && !other.branch) {
       // One of those that are followed, it would be on.
       const bool followed = std::ranges::any_of(
           traced_.branches, [&](const analysis::Branch& b) { return is_there(b.first) || is_there(b.last); });
@@ -427,7 +427,7 @@ class Explainer {
       for (std::size_t n = 0; n < traced_.special.size(); ++n) {
         const SpecialRow& r = traced_.special[n];
         const double slack = std::abs(next.value - root.value);
-        if (r.kind != SpecialKind::flip || r.branch != *root.branch ||
+        if (r.kind != SpecialKind::period_doubling || r.branch != *root.branch ||
             !holds(std::min(root.value, next.value) - slack, std::max(root.value, next.value) + slack, r.value))
           continue;
         change.cause = Cause::cascade;

@@ -39,7 +39,7 @@ CoexistingOrbits search_coexisting_orbits(const BranchSystem& system, const mode
   analysis::SearchOptions search;
   search.largest_period = options.period_max;
   constexpr int periods_that_come_back = 200;
-  search.settle = periods_that_come_back;
+  search.return_periods = periods_that_come_back;
   const analysis::OrbitSearch found = search_orbits(family, value, starts, search);
 
   CoexistingOrbits result{value, starts.size(), 0};

@@ -25,7 +25,7 @@ struct BranchSeed {
 struct LociOptions {
   std::string parameter;    ///< its name, or a JSON pointer to a number of the input
   double from = 0, to = 1;  ///< range of its values, from < to, around the one that the study gives
-  std::vector<analysis::SpecialKind> kinds = {analysis::SpecialKind::fold, analysis::SpecialKind::flip,
+  std::vector<analysis::SpecialKind> kinds = {analysis::SpecialKind::fold, analysis::SpecialKind::period_doubling,
                                               analysis::SpecialKind::neimark_sacker,
                                               analysis::SpecialKind::branch_point};
   std::vector<double> near{};  ///< values of the first parameter: of the points nearest to them alone; none: of all

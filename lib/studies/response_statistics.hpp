@@ -49,7 +49,7 @@ struct MeshRecord {
   Course force;                                             ///< F, damping included [N]
   double drive = std::numeric_limits<double>::quiet_NaN();  ///< part of the time on that flank [-]; likewise none
   double back = drive;
-  double tension = 0;       ///< largest tension `[model::pull()]`, over the static force of a sun mesh [-]
+  double tension = 0;       ///< largest tension [model::tensile_force()], over the static force of a sun mesh [-]
   double tension_time = 0;  ///< part of the time that there is tension [-]
   Course quasi_static;      ///< force over a mesh period of the quasi-static solution [N]
 

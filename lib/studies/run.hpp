@@ -56,7 +56,7 @@ struct MeshSummary {
   double kv = 0;                                        ///< K_v [S-kv] [-]; not a number where it is not known
   double load_sharing = 0;                              ///< of the means [S-share] [-]
   double drive = 0, loss = 0, back = 0;                 ///< parts of the time [-]
-  double tensile_force_max = 0;                         ///< largest tension `[model::DynamicModel::pull()]` [N]
+  double tensile_force_max = 0;                         ///< largest tension [model::tensile_force()] [N]
   double tension_time = 0;                              ///< part of the time that there is tension [-]
   int contact_losses = 0;                               ///< times that the drive flank was left, per record
 };

@@ -67,7 +67,7 @@ class PointRun {
   [[nodiscard]] PointResult result() {
     if (adaptive_) pass_transient();
     const auto flow = flows_.strobe(model_, integrator_);
-    analysis::carry(*flow, state_, strobe_, go_on_);
+    analysis::advance_strobe(*flow, state_, strobe_, go_on_);
     const analysis::Strobe& strobe = strobe_.result();
     result_.meshes = watch_.finish();
     result_.outcome = strobe.evolution.outcome;

@@ -1,4 +1,4 @@
-// The threshold for a tensile force of a mesh `[S-pull]`.
+// The threshold for a tensile force of a mesh [S-tension].
 #pragma once
 
 #include "core/scalar.hpp"

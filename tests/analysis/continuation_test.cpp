@@ -62,7 +62,7 @@ TEST(Continuation, FindsDuffingsPublishedFlip) {
   const FieldFamily fields = problems::duffing(0.3, -1.0, 1.2);
   const Traced t = trace({flows(fields, tolerance)}, fields, {.from = 0.2, .to = 0.3}, 0.2, {1.0, 0.0}, 100);
   ASSERT_EQ(t.special.size(), 1U);
-  expect_at(t.special[0], SpecialKind::flip, 0.2655817861, 0.5 * tenth_decimal);
+  expect_at(t.special[0], SpecialKind::period_doubling, 0.2655817861, 0.5 * tenth_decimal);
   EXPECT_TRUE(t.special[0].outwards);
   EXPECT_EQ(t.end, BranchEnd::range);
   EXPECT_EQ(t.orbits.back().at.value, 0.3);
@@ -118,7 +118,7 @@ TEST(Continuation, FindsAFlipAndATorusThatCrossOppositeWaysBetweenNeighbours) {
     }
     const std::vector<SpecialPoint> points = special_points_between(family, a, b, with_bounds(fields));
     ASSERT_EQ(points.size(), 2U) << upwards;
-    expect_at(points[upwards ? 0 : 1], SpecialKind::flip, 0.0, 0.0);
+    expect_at(points[upwards ? 0 : 1], SpecialKind::period_doubling, 0.0, 0.0);
     expect_at(points[upwards ? 1 : 0], SpecialKind::neimark_sacker, torus, 0.0);
     EXPECT_EQ(points[upwards ? 0 : 1].outwards, !upwards);
     EXPECT_EQ(points[upwards ? 1 : 0].outwards, upwards);
@@ -253,7 +253,7 @@ Traced clearance_branch(double e, double width = 0.0, double to_tolerance = tole
 
 /// Where the closed form has a fold or flip: P(y, W) = y and det(M -+ I) = 0, by Newton's method from a place nearby.
 double closed_form(const SpecialPoint& near, double e) {
-  const double sign = near.kind == SpecialKind::flip ? 1.0 : -1.0;
+  const double sign = near.kind == SpecialKind::period_doubling ? 1.0 : -1.0;
   const auto equations = [&](const Eigen::Vector3d& z) {
     const problems::BasicClearanceExact<long double> exact(z(2), 0.05, 0.1, e);
     std::array<double, 4> m = {1.0, 0.0, 0.0, 1.0};

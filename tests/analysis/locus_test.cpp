@@ -202,7 +202,7 @@ TEST(Loci, NeimarkSackerPointsEndAtOneToOne) {
 TEST(Loci, FlipsPassOneToTwoWhereNeimarkSackerPointsEnd) {
   const Located flips = locate({"flips",
                                 problems::double_minus_one(),
-                                SpecialKind::flip,
+                                SpecialKind::period_doubling,
                                 {0.01, -0.1, {1.0, 0.0}, false},
                                 rectangle(-0.1, 0.1, -0.2, 0.2)});
   ASSERT_TRUE(flips.found);
@@ -239,7 +239,7 @@ constexpr double eighth_decimal = 0.5e-8;
 TEST(Loci, MathieusFlipsAreAClosedCurveThroughHisCharacteristicValues) {
   Located l = locate({"Mathieu's flips",
                       problems::mathieu(),
-                      SpecialKind::flip,
+                      SpecialKind::period_doubling,
                       {0.9, 0.5, {1.0, 0.0}, false},
                       rectangle(-1.0, 1.0, -1.0, 3.0)});
   ASSERT_TRUE(l.found);
@@ -287,7 +287,7 @@ TEST(Loci, OfFoldsAndOfOthersMeetWhereBothSay) {
     SpecialKind other;
     CodimTwo kind;
   };
-  for (const Case& c : {Case{problems::folds_and_flips(), SpecialKind::flip, CodimTwo::fold_flip},
+  for (const Case& c : {Case{problems::folds_and_flips(), SpecialKind::period_doubling, CodimTwo::fold_period_doubling},
                         Case{problems::folds_and_tori(), SpecialKind::neimark_sacker, CodimTwo::fold_neimark_sacker}}) {
     const LocusOptions options = rectangle(-1.0, 0.5, -0.5, 0.5);
     const Located folds =
@@ -315,11 +315,12 @@ TEST(Loci, OfFoldsAndOfOthersMeetWhereBothSay) {
 TEST(Loci, OfFlipsAndToriMeetWhereBothSay) {
   const LocusOptions options = rectangle(-0.1, 0.1, 0.0, 0.2);
   const std::vector<double> state = {1.0, 0.0, 0.0, 0.0};
-  const Located flips = locate({"flips", problems::flips_and_tori(), SpecialKind::flip, {-0.05, 0.05, state}, options});
+  const Located flips =
+      locate({"flips", problems::flips_and_tori(), SpecialKind::period_doubling, {-0.05, 0.05, state}, options});
   ASSERT_TRUE(flips.found);
   const Followed f = flips.follow(true);
   ASSERT_EQ(f.marks.size(), 1U);
-  expect_at(f.marks[0], CodimTwo::flip_neimark_sacker, 0.0, 0.1);
+  expect_at(f.marks[0], CodimTwo::period_doubling_neimark_sacker, 0.0, 0.1);
   const Located tori =
       locate({"tori", problems::flips_and_tori(), SpecialKind::neimark_sacker, {-0.05, 0.05, state}, options});
   ASSERT_TRUE(tori.found);
@@ -327,7 +328,7 @@ TEST(Loci, OfFlipsAndToriMeetWhereBothSay) {
   expect_on(
       t, [](const LocusPoint& p) { return p.first() + p.second() - 0.1; }, 1.0, 1.0);
   ASSERT_EQ(t.marks.size(), 1U);
-  expect_at(t.marks[0], CodimTwo::flip_neimark_sacker, 0.0, 0.1);
+  expect_at(t.marks[0], CodimTwo::period_doubling_neimark_sacker, 0.0, 0.1);
 }
 
 template <std::size_t N>
@@ -427,8 +428,9 @@ TEST(Loci, DuffingsFlipsPassThePublishedOnes) {
     LocusOptions options = rectangle(0.2, 0.4, 1.2, 1.25);
     options.others = problems::finer_planes(fields, tolerance);
     const auto special = problems::trace(family, options.along, {}, first.orbit).special;
-    const auto flip = std::find_if(special.begin(), special.end(),
-                                   [](const SpecialPoint& q) { return q.kind == SpecialKind::flip && q.outwards; });
+    const auto flip = std::find_if(special.begin(), special.end(), [](const SpecialPoint& q) {
+      return q.kind == SpecialKind::period_doubling && q.outwards;
+    });
     ASSERT_NE(flip, special.end());
     const LocusCorrection start = locus_start(surface, *flip, beside);
     ASSERT_TRUE(start.found) << start.message;
@@ -543,7 +545,7 @@ TEST(Loci, AreRefusedWhereThereAreNone) {
   EXPECT_THROW((void)locus_start(l.surface, point, 0.1), InputError);
   point.kind = SpecialKind::unresolved;
   EXPECT_THROW((void)locus_start(l.surface, point, 0.1), InputError);
-  point.kind = SpecialKind::flip;
+  point.kind = SpecialKind::period_doubling;
   point.symmetry_index = 1;
   EXPECT_THROW((void)locus_start(l.surface, point, 0.1), InputError);
   const auto refused = [&](const LocusOptions& options) {
@@ -594,7 +596,7 @@ std::vector<KnownLocus> known_loci() {
                  {{0.0, -1.0 / 9.0}, {0.0, -1.0 / 16.0}, {0.0, 0.0}}});
   all.push_back({{"flips",
                   problems::double_minus_one(),
-                  SpecialKind::flip,
+                  SpecialKind::period_doubling,
                   {0.01, -0.1, {1.0, 0.0}, false},
                   rectangle(-0.1, 0.1, -0.2, 0.2)},
                  line,
@@ -603,7 +605,7 @@ std::vector<KnownLocus> known_loci() {
   const double q = 2.0 * std::pow(0.1, 1.5);
   all.push_back({{"flips over folds",
                   problems::folds_and_flips(),
-                  SpecialKind::flip,
+                  SpecialKind::period_doubling,
                   {0.4, 0.01, {1.64, 0.0, 0.0}, false},
                   rectangle(-1.0, 0.5, -0.5, 0.5)},
                  [](const LocusPoint& p) { return p.first() - 0.3; },

@@ -96,10 +96,10 @@ TEST(NeutralDirections, TheSearchFindsTheOrbitsOfTheRelativeMotion) {
   constexpr double w = 0.6;
   const OrbitSearch reduced =
       search_orbits({problems::clearance_flows(clearance_e, tolerance)}, w,
-                    starts_in_box(std::array{1.1, 0.0}, std::array{1.0, 1.0}, 12), {.settle = 40, .rounds = 1});
+                    starts_in_box(std::array{1.1, 0.0}, std::array{1.0, 1.0}, 12), {.return_periods = 40, .rounds = 1});
   const OrbitSearch whole = search_orbits(
       free_pair(-0.6), w, starts_in_box(std::array{1.1, 0.0, -0.3, -0.3}, std::array{1.0, 0.3, 0.5, 0.5}, 12),
-      {.settle = 40, .rounds = 1});
+      {.return_periods = 40, .rounds = 1});
   ASSERT_EQ(whole.orbits.size(), reduced.orbits.size());
   for (const FoundOrbit& f : whole.orbits) {
     const Eigen::VectorXd y = f.orbit.at.states.col(0);

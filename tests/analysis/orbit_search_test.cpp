@@ -103,7 +103,7 @@ TEST(OrbitSearch, StartsThatLeadToOneOrbitLeadToTheOthersByDeflation) {
 TEST(OrbitSearch, IsTheSameForAnyOrderOfStartsAndNumberOfThreads) {
   const OrbitFamily family{flows(problems::duffing_in_frequency(0.1, 1.0, 0.3), 1e-9)};
   auto starts = starts_in_box(std::array{0.0, 0.0}, std::array{2.0, 3.0}, 8);
-  const SearchOptions options{.largest_period = 2, .settle = 10};
+  const SearchOptions options{.largest_period = 2, .return_periods = 10};
   const OrbitSearch search = search_orbits(family, between_duffings_folds, starts, options);
   SearchOptions threaded = options;
   threaded.threads = 3;
@@ -206,7 +206,7 @@ TEST(OrbitSearch, CountsAnOrbitAtItsLeastPeriodAndOnceForAllOfItsPeriods) {
   const auto starts = starts_in_box(std::array{1.1, 0.0}, std::array{2.0, 2.0}, 12);
   // Where the period-1 orbit has lost its stability at a flip.
   constexpr double w = 1.7;
-  const OrbitSearch search = search_orbits(family, w, starts, {.largest_period = 2, .settle = 40});
+  const OrbitSearch search = search_orbits(family, w, starts, {.largest_period = 2, .return_periods = 40});
   int once = 0, twice = 0;
   for (const FoundOrbit& f : search.orbits) {
     (f.family.period == 1 ? once : twice) += 1;
@@ -217,7 +217,8 @@ TEST(OrbitSearch, CountsAnOrbitAtItsLeastPeriodAndOnceForAllOfItsPeriods) {
   EXPECT_EQ(degree(search.orbits, 1), 1);
   EXPECT_EQ(degree(search.orbits, 2), 1);
   // At n = 2 alone the same ones are found, those of period 1 as such.
-  const OrbitSearch alone = search_orbits(family, w, starts, {.smallest_period = 2, .largest_period = 2, .settle = 40});
+  const OrbitSearch alone =
+      search_orbits(family, w, starts, {.smallest_period = 2, .largest_period = 2, .return_periods = 40});
   ASSERT_EQ(alone.orbits.size(), search.orbits.size());
   for (std::size_t k = 0; k < alone.orbits.size(); ++k)
     EXPECT_EQ(alone.orbits[k].family.period, search.orbits[k].family.period);

@@ -77,8 +77,9 @@ TEST(SpecialPointsLong, BoundsHoldAndAreNotIdle) {
   RecordProperty("missing", std::to_string(tally.missing));
   RecordProperty("median_ratio", std::to_string(median));
   EXPECT_GE(tally.truths, 40U);
-  EXPECT_EQ(tally.kinds, (std::set<SpecialKind>{SpecialKind::fold, SpecialKind::branch_point, SpecialKind::flip,
-                                                SpecialKind::neimark_sacker, SpecialKind::grazing}));
+  EXPECT_EQ(tally.kinds,
+            (std::set<SpecialKind>{SpecialKind::fold, SpecialKind::branch_point, SpecialKind::period_doubling,
+                                   SpecialKind::neimark_sacker, SpecialKind::grazing}));
   EXPECT_GE(tally.compared, 200U);
   EXPECT_LE(100 * tally.outside, tally.compared);  // 2 of 200
   EXPECT_LE(100 * (tally.unresolved + tally.missing), 3 * tally.compared);

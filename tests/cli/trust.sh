@@ -16,7 +16,7 @@ cat >crosscheck.json <<END
 END
 [ "$(code_of "$epicyclic" crosscheck crosscheck.json -o c1 --threads 1)" = 1 ] || fail "a width of 0.1 differs: exit 1: $(<stderr)"
 # The resolved input by 2 threads.
-"$epicyclic" check --no-time crosscheck.json >resolved.json 2>/dev/null
+"$epicyclic" check --no-time --json crosscheck.json >resolved.json 2>/dev/null
 [ "$(code_of "$epicyclic" crosscheck resolved.json -o c2 --threads 2)" = 1 ] || fail "a resolved cross-check with 2 threads: $(<stderr)"
 for file in crosscheck.csv crosscheck.md points.csv poincare.csv figures/crosscheck.dat; do
   cmp -s "c1/$file" "c2/$file" || fail "$file differs between 1 thread and the resolved input by 2"

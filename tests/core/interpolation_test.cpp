@@ -151,15 +151,15 @@ TEST(IntervalGrid, IsFoundWithoutASearch) {
 
 TEST(IntervalGrid, WaysRunFromTheStartOfThePieceToItsEnd) {
   for (const IntervalGrid& g : grids()) {
-    EXPECT_EQ(g.way(0), g.from_end ? 1.0 : 0.0);
-    EXPECT_EQ(g.way(g.count), g.from_end ? 0.0 : 1.0);
+    EXPECT_EQ(g.fraction(0), g.from_end ? 1.0 : 0.0);
+    EXPECT_EQ(g.fraction(g.count), g.from_end ? 0.0 : 1.0);
     for (std::size_t k = 0; k < g.count; ++k) {
-      EXPECT_NE(g.way(k), g.way(k + 1));
-      EXPECT_EQ(g.way(k) < g.way(k + 1), !g.from_end);
+      EXPECT_NE(g.fraction(k), g.fraction(k + 1));
+      EXPECT_EQ(g.fraction(k) < g.fraction(k + 1), !g.from_end);
     }
     if (g.per_octave > 0) continue;
     for (std::size_t k = 0; k <= g.count; ++k)
-      EXPECT_NEAR(g.way(k), static_cast<double>(k) / static_cast<double>(g.count), rounding);
+      EXPECT_NEAR(g.fraction(k), static_cast<double>(k) / static_cast<double>(g.count), rounding);
   }
 }
 
@@ -168,7 +168,7 @@ TEST(IntervalGrid, HalvedHasEverySecondNode) {
     if (!g.can_be_halved()) continue;
     const IntervalGrid half = g.halved();
     ASSERT_EQ(2 * half.count, g.count);
-    for (std::size_t k = 0; k <= half.count; ++k) EXPECT_NEAR(half.way(k), g.way(2 * k), rounding);
+    for (std::size_t k = 0; k <= half.count; ++k) EXPECT_NEAR(half.fraction(k), g.fraction(2 * k), rounding);
   }
 }
 

@@ -145,7 +145,7 @@ TEST(FrictionPath, BreakpointsAreWherePairsEnterLeaveOrPassThePitchPoint) {
   EXPECT_NEAR(t.breakpoints[2], pitch, rounding);
   Stage s = problems::tang2020();
   s.sun_planet_mesh.friction = {t, std::nullopt};
-  EXPECT_TRUE(problems_for_motion(s).empty());
+  EXPECT_TRUE(problems_for_dynamics(s).empty());
 }
 
 TEST(FrictionPath, PathIsSymmetricAboutThePitchPointUnlessGiven) {

@@ -350,7 +350,7 @@ TEST(GearSet, StiffnessCurveIsTheMeshesOwnOnBothSidesOfItsJumps) {
     s.sun_planet_mesh.stiffness_N_per_m = fourier_series(mesh, 1).mean;
     s.sun_planet_mesh.stiffness_cos_N_per_m.clear();
     s.sun_planet_mesh.stiffness_sin_N_per_m.clear();
-    EXPECT_EQ(joined(problems_for_motion(s)), "");
+    EXPECT_EQ(joined(problems_for_dynamics(s)), "");
   }
 }
 
@@ -361,7 +361,7 @@ TEST(GearSet, FrictionOfAMeshPassesTheRulesOfAStage) {
   s.ring_planet_mesh.friction = {};
   s.sun_planet_mesh.friction.ehl = ehl_of(g.sun_planet, *g.catalogue.lubrication);
   s.ring_planet_mesh.friction.ehl = ehl_of(g.ring_planet, *g.catalogue.lubrication);
-  EXPECT_EQ(joined(problems_for_motion(s)), "");
+  EXPECT_EQ(joined(problems_for_dynamics(s)), "");
   EXPECT_EQ(s.sun_planet_mesh.friction.ehl->width_mm, 60.0);
   // E' of Eq. (8): 206 / (1 - 0.09).
   constexpr double rounding_GPa = 1e-12;  // of a few operations on some 200

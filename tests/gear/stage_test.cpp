@@ -55,7 +55,7 @@ TEST(Stage, GoodStagesHaveNoProblems) {
                         problems::tang2020()};
   for (const Stage& s : good) {
     EXPECT_EQ(problems_for_modes(s), std::vector<std::string>{}) << s.name;
-    EXPECT_EQ(problems_for_motion(s), std::vector<std::string>{}) << s.name;
+    EXPECT_EQ(problems_for_dynamics(s), std::vector<std::string>{}) << s.name;
   }
 }
 
@@ -164,7 +164,7 @@ TEST(Stage, MotionNamesEachRuleThatIsBroken) {
           {"/load", "exclude", [](Stage& s) { s.load.torque_Nm = 1.0; }},
           {"/load", "needs", [](Stage& s) { s.load.power_kW.reset(); }},
       },
-      problems_for_motion);
+      problems_for_dynamics);
 }
 
 TEST(Stage, FrictionTablesNameEachRuleThatIsBroken) {
@@ -209,7 +209,7 @@ TEST(Stage, FrictionTablesNameEachRuleThatIsBroken) {
            },
            base},
       },
-      problems_for_motion);
+      problems_for_dynamics);
 }
 
 TEST(Assembly, ThePlacesOfAPlanetAreWholeTeethOfSunAndRingApart) {

@@ -213,7 +213,7 @@ TEST(Warnings, GivenValuesAreHeldAgainstTheDrawings) {
 
 TEST(Warnings, EachOneOnTheMotionIsToldAtItsPlace) {
   const Stage usual = problems::with_gap(problems::r1());
-  EXPECT_EQ(joined(lines_of(warnings_for_motion(usual))), "");
+  EXPECT_EQ(joined(lines_of(warnings_for_dynamics(usual))), "");
   const struct {
     const char* pointer;
     const char* words;
@@ -252,7 +252,7 @@ TEST(Warnings, EachOneOnTheMotionIsToldAtItsPlace) {
   for (const auto& rule : rules) {
     Stage s = usual;
     rule.break_it(s);
-    const auto lines = lines_of(warnings_for_motion(s));
+    const auto lines = lines_of(warnings_for_dynamics(s));
     EXPECT_TRUE(has_line(lines, rule.pointer, rule.words)) << rule.pointer << ": " << rule.words << "\nnot among:\n"
                                                            << joined(lines);
   }
@@ -326,7 +326,7 @@ TEST(Warnings, AStageForModesAloneIsLookedAtAsFarAsItGoes) {
   s.planet.base_radius_mm.reset();
   s.centre_distance_mm.reset();
   s.sun.damping = {};
-  EXPECT_EQ(lines_of(warnings_for_motion(s)).size(), 1U);
+  EXPECT_EQ(lines_of(warnings_for_dynamics(s)).size(), 1U);
   EXPECT_TRUE(warnings_at(s, 1e4).empty());
 }
 

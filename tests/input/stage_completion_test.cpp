@@ -130,9 +130,9 @@ TEST(StageCompletion, ABearingMayHaveDataOfItsOwn) {
 
 TEST(StageCompletion, AWrongLoadShareIsToldWhereItStands) {
   gear::Stage stage = loaded().study.stage;
-  ASSERT_TRUE(gear::problems_for_motion(stage).empty());
+  ASSERT_TRUE(gear::problems_for_dynamics(stage).empty());
   stage.sun_planet_mesh.friction.ehl->share_position.front() = 0.1;
-  EXPECT_TRUE(any_has(gear::problems_for_motion(stage),
+  EXPECT_TRUE(any_has(gear::problems_for_dynamics(stage),
                       "/lumped/sun_planet_mesh/friction/lubricated/load_share_position: must go from 0"));
 }
 

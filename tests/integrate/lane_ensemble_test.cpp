@@ -91,7 +91,7 @@ TEST_P(LaneEnsembles, BitsOfALaneDependOnNoOtherLane) {
     start(lane);
   }
   EXPECT_EQ(finished, systems.size());
-  EXPECT_GT(lanes.evaluations_under_way(), lanes.evaluations() * lanes.width() / 2);
+  EXPECT_GT(lanes.evaluations_in_progress(), lanes.evaluations() * lanes.width() / 2);
 }
 
 TEST_P(LaneEnsembles, BitsAreTheSameOnEveryInstructionSetAndWidth) {

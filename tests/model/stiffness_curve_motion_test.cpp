@@ -73,8 +73,8 @@ double difference(const DynamicModel& a, const DynamicModel& b) {
 
 TEST(StiffnessCurve, OfASmoothSeriesIsTheSeries) {
   const gear::Stage s = with_harmonics();
-  ASSERT_TRUE(gear::problems_for_motion(s).empty());
-  ASSERT_TRUE(gear::problems_for_motion(tabulated(s, 256)).empty());
+  ASSERT_TRUE(gear::problems_for_dynamics(s).empty());
+  ASSERT_TRUE(gear::problems_for_dynamics(tabulated(s, 256)).empty());
   const double coarse = difference(model_of(s), model_of(tabulated(s, 256)));
   const double fine = difference(model_of(s), model_of(tabulated(s, 1024)));
   // Steffen's slopes vanish at extrema: the error there is of second order, some (2 pi / 1024)^2 / 8 of a harmonic.
@@ -92,7 +92,7 @@ TEST(StiffnessCurve, BreakpointsOfEachPlanetAreKnownToTheIntegrator) {
   // Two pairs until phase 0.2, one behind it.
   s.sun_planet_mesh.stiffness_curve = gear::StiffnessCurve{{0.0, 0.0, 0.2, 0.2}, {1e9, 1.8e9, 1.8e9, 1e9}, {0.0, 0.2}};
   s.sun_planet_mesh.stiffness_N_per_m = 0.2 * 1.8e9 + 0.8 * 1e9;
-  ASSERT_TRUE(gear::problems_for_motion(s).empty());
+  ASSERT_TRUE(gear::problems_for_dynamics(s).empty());
   const DynamicModel model = model_of(s);
   // s_spi = s - z_s phi_i: 28/3 leaves planets 2 and 3 a third of a period apart.
   std::vector<double> expected;
@@ -116,7 +116,7 @@ TEST(StiffnessCurve, DefaultStartTakesTheMeanStiffness) {
 TEST(StiffnessCurve, MustHaveTheMeanThatIsGiven) {
   gear::Stage s = tabulated(with_harmonics(), 64);
   s.ring_planet_mesh.stiffness_N_per_m *= 1.02;
-  const auto problems = gear::problems_for_motion(s);
+  const auto problems = gear::problems_for_dynamics(s);
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].rfind("/lumped/ring_planet_mesh/stiffness_N_per_m: is ", 0), 0U);
 }
@@ -124,7 +124,7 @@ TEST(StiffnessCurve, MustHaveTheMeanThatIsGiven) {
 TEST(StiffnessCurve, ExcludesHarmonics) {
   gear::Stage s = tabulated(with_harmonics(), 16);
   s.sun_planet_mesh.stiffness_cos_N_per_m = {1e8};
-  EXPECT_FALSE(gear::problems_for_motion(s).empty());
+  EXPECT_FALSE(gear::problems_for_dynamics(s).empty());
 }
 
 TEST(StiffnessCurve, LanesOnPiecesOfDifferentKindsAreTheSingleRuns) {

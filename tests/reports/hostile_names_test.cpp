@@ -120,41 +120,42 @@ struct Drawing {
 };
 
 figures::FigureText text_of(const std::string& name) {
-  return {figures::literal_text(name), figures::literal_text(name), figures::literal_text(name)};
+  return {figures::verbatim_text(name), figures::verbatim_text(name), figures::verbatim_text(name)};
 }
 
 const std::vector<Drawing>& drawings() {
   static const std::vector<Drawing> all = {
       {"line",
        [](const std::filesystem::path& folder, const std::string& name) {
-         return figures::line_figure(folder, "a", text_of(name), {{figures::literal_text(name), values, values, false}},
-                                     {}, {{2.0, figures::literal_text(name)}});
+         return figures::line_figure(folder, "a", text_of(name),
+                                     {{figures::verbatim_text(name), values, values, false}}, {},
+                                     {{2.0, figures::verbatim_text(name)}});
        }},
       {"bifurcation",
        [](const std::filesystem::path& folder, const std::string& name) {
          return figures::bifurcation_figure(folder, "a", text_of(name),
-                                            {series(figures::literal_text(name)), series("down")});
+                                            {series(figures::verbatim_text(name)), series("down")});
        }},
       {"regimes",
        [](const std::filesystem::path& folder, const std::string& name) {
-         return figures::class_bifurcation_figure(folder, "a", text_of(name), name, figures::literal_text(name),
-                                                  {{figures::literal_text(name), "#12285c"}}, values.size(),
+         return figures::class_bifurcation_figure(folder, "a", text_of(name), name, figures::verbatim_text(name),
+                                                  {{figures::verbatim_text(name), "#12285c"}}, values.size(),
                                                   class_point);
        }},
       {"classes",
        [](const std::filesystem::path& folder, const std::string& name) {
          return figures::class_figure(folder, "a", text_of(name), {values, values},
-                                      {{figures::literal_text(name), "#12285c"}}, std::vector<std::size_t>(9, 0));
+                                      {{figures::verbatim_text(name), "#12285c"}}, std::vector<std::size_t>(9, 0));
        }},
       {"values",
        [](const std::filesystem::path& folder, const std::string& name) {
-         return figures::value_figure(folder, "a", text_of(name), {values, values}, figures::literal_text(name),
-                                      figures::literal_text(name),
+         return figures::value_figure(folder, "a", text_of(name), {values, values}, figures::verbatim_text(name),
+                                      figures::verbatim_text(name),
                                       {1, 2, 3, 4, 5, 6, 7, 8, std::numeric_limits<double>::quiet_NaN()});
        }},
       {"decades",
        [](const std::filesystem::path& folder, const std::string& name) {
-         return figures::decade_figure(folder, "a", text_of(name), {values, values}, figures::literal_text(name),
+         return figures::decade_figure(folder, "a", text_of(name), {values, values}, figures::verbatim_text(name),
                                        {1, 2, 3, 4, 5, 6, 7, 8, 9}, 0.1);
        }},
       {"tracks",
@@ -163,16 +164,16 @@ const std::vector<Drawing>& drawings() {
            return figures::TrackRow{static_cast<double>(i), true, {static_cast<double>(i)}};
          };
          return figures::track_figure(folder, "a", text_of(name),
-                                      {{figures::literal_text(name), 3, at}, {figures::literal_text(name), 3, at}},
-                                      {{figures::literal_text(name), {0}}}, {figures::literal_text(name)});
+                                      {{figures::verbatim_text(name), 3, at}, {figures::verbatim_text(name), 3, at}},
+                                      {{figures::verbatim_text(name), {0}}}, {figures::verbatim_text(name)});
        }},
       {"panels",
        [](const std::filesystem::path& folder, const std::string& name) {
          figures::Sketch sketch("a");
          for (int panel = 0; panel < 2; ++panel) {
-           sketch.panel(figures::literal_text(name), {0.0, 4.0});
+           sketch.panel(figures::verbatim_text(name), {0.0, 4.0});
            sketch.add(std::vector<std::array<double, 2>>{{1.0, 1.0}, {3.0, 3.0}}, "lines",
-                      panel == 0 ? figures::literal_text(name) : "");
+                      panel == 0 ? figures::verbatim_text(name) : "");
          }
          return sketch.draw(folder, text_of(name), {0.0, 4.0}, {});
        }},
@@ -222,16 +223,16 @@ TEST(HostileNames, EachKindOfDrawingStandsTheWorst) {
 }
 
 TEST(HostileNames, ShowTheirEndsWhereTheyAreTooLong) {
-  EXPECT_EQ(figures::literal_text(std::string(30, 'n')), std::string(30, 'n'));
-  const std::string shown = figures::literal_text("begin" + std::string(5000, 'n') + "end");
+  EXPECT_EQ(figures::verbatim_text(std::string(30, 'n')), std::string(30, 'n'));
+  const std::string shown = figures::verbatim_text("begin" + std::string(5000, 'n') + "end");
   EXPECT_TRUE(shown.starts_with("beginnn")) << shown;
   EXPECT_TRUE(shown.ends_with("nnend")) << shown;
   EXPECT_LT(figures::text_width(shown), 50.0);
 }
 
 TEST(HostileNames, AreUtf8OrAreMadeSo) {
-  EXPECT_EQ(figures::literal_text("a\xff\xc3(b"), "a\xef\xbf\xbd\xef\xbf\xbd(b");
-  EXPECT_EQ(figures::literal_text("\xe4\xb8"), "\xef\xbf\xbd\xef\xbf\xbd");
+  EXPECT_EQ(figures::verbatim_text("a\xff\xc3(b"), "a\xef\xbf\xbd\xef\xbf\xbd(b");
+  EXPECT_EQ(figures::verbatim_text("\xe4\xb8"), "\xef\xbf\xbd\xef\xbf\xbd");
 }
 
 TEST(HostileNames, WithoutAFontAreBoxesThatDoNotCoverTheFigure) {
@@ -239,7 +240,7 @@ TEST(HostileNames, WithoutAFontAreBoxesThatDoNotCoverTheFigure) {
   // No font has a noncharacter's neighbour, a place of a plane for private use: both files are then told apart.
   const TemporaryFolder folder;
   const auto draw = [&](const char* stem, const std::string& name) {
-    return figures::line_figure(folder.path(), stem, {figures::literal_text(name), "x", "y"},
+    return figures::line_figure(folder.path(), stem, {figures::verbatim_text(name), "x", "y"},
                                 {{"", values, values, false}});
   };
   ASSERT_TRUE(draw("rare", "a \U000ffffd b").drawn());

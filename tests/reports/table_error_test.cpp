@@ -82,8 +82,8 @@ VectorField continuous(const model::DynamicModel& m, const gear::Stage& stage, c
       mesh.moment_driven = f[2];
       if (curve) mesh.stiffness = scales.stiffness(laws.pair.stiffness(phase, inside));
     };
-    set_mesh(*sun, p->sun_planet.turns[0], now.sun_planet);
-    set_mesh(*ring, p->ring_planet.turns[0], now.ring_planet);
+    set_mesh(*sun, p->sun_planet.phase_cycles[0], now.sun_planet);
+    set_mesh(*ring, p->ring_planet.phase_cycles[0], now.ring_planet);
     model::right_hand_side(model::Layout::relative_to_ring, *p, now, y, dyds);
   };
   return field;

@@ -115,7 +115,7 @@ TEST(Journal, LayoutIsTheOneDocumented) {
   ASSERT_EQ(file.size(), header_size + overhead + 2);
   EXPECT_EQ(file.substr(0, 80), std::string("epicyclic-jn\x07\0\0\0", 16) + identity);
   const std::string record = file.substr(header_size);
-  const std::string covered = std::string("EPJR\x02\0\0\0\x08\x07\x07\x05\x04\x03\x02\x01", 16) + "ab";
+  const std::string covered = std::string("EPJR\x02\0\0\0\x08\x07\x06\x05\x04\x03\x02\x01", 16) + "ab";
   EXPECT_EQ(record.substr(0, 18), covered);
   const std::uint32_t crc = crc_of(covered);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(static_cast<unsigned char>(record[18 + i]), (crc >> (8 * i)) & 0xffU);

@@ -181,7 +181,7 @@ void complete(const std::filesystem::path& folder) {
   std::filesystem::create_directory(folder / "figures");
   write_file_atomically(folder / "figures/a.dat", "5 6\n");
   write_file_atomically(folder / "journal.bin", "not a result");
-  tell_placed(folder / "figures/a.png", Placed::undrawn);
+  report_placed(folder / "figures/a.png", Placed::undrawn);
   out.write_run(RunState::complete, json::object());
 }
 

@@ -53,7 +53,7 @@ Flip flip_at(double damping_ratio) {
   while (tree.branches().empty() && tree.advance()) {
   }
   for (const analysis::SpecialPoint& p : tree.branches().at(0).special)
-    if (p.kind == analysis::SpecialKind::flip) return {true, from.keeps_symmetry, p};
+    if (p.kind == analysis::SpecialKind::period_doubling) return {true, from.keeps_symmetry, p};
   return {};
 }
 

@@ -33,7 +33,7 @@ DynamicModel with_dip(double centre, double width, double depth, int rows, bool 
   const double outside = mesh.stiffness_N_per_m / mean;
   for (const double phase : curve.phase) curve.stiffness_N_per_m.push_back(outside * (1.0 - depth * part(phase)));
   mesh.stiffness_curve = curve;
-  EXPECT_TRUE(gear::problems_for_motion(s).empty());
+  EXPECT_TRUE(gear::problems_for_dynamics(s).empty());
   return model::make_dynamic_model(s, model::scales_of(s), 1.0, {});
 }
 

@@ -91,14 +91,15 @@ TEST(ResponseStatistics, ASmallMotionIsNotLostInItsMean) {
 TEST(ResponseStatistics, TellsHowLongAMeshIsOnEachSide) {
   // cos s > 1/2 for a third of the time; at 12 phases for 3 of them, since the ends do not count.
   for (const int phases : {12, 20, 64}) {
-    const auto symmetry_index = [](double s) { return std::cos(s); };
     long drive = 0;
     long back = 0;
-    for (int j = 1; j <= 3 * phases; ++j) {
-      drive += symmetry_index(2.0 * pi * j / phases) > 0.5 ? 1 : 0;
-      back += symmetry_index(2.0 * pi * j / phases) < -0.5 ? 1 : 0;
-    }
-    const StageRecord r = record_of(symmetry_index, phases, 3, 0.5);
+    for (int period = 0; period < 3; ++period)
+      for (const double phase : analysis::uniform_phases(2.0 * pi, phases)) {
+        const double s = 2.0 * pi * period + phase;  // as in record_of(): rounding decides on which side the ends are
+        drive += std::cos(s) > 0.5 ? 1 : 0;
+        back += std::cos(s) < -0.5 ? 1 : 0;
+      }
+    const StageRecord r = record_of([](double s) { return std::cos(s); }, phases, 3, 0.5);
     const MeshRecord& sp = r.sun_planet[0];
     EXPECT_NEAR(sp.drive, static_cast<double>(drive) / (3.0 * phases), rounding) << phases;
     EXPECT_NEAR(sp.back, static_cast<double>(back) / (3.0 * phases), rounding) << phases;

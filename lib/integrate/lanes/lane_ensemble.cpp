@@ -302,7 +302,7 @@ class LaneEnsemble::Impl {
     return work;
   }
   std::size_t evaluations() const { return evaluated_; }
-  std::size_t evaluations_under_way() const { return under_way_; }
+  std::size_t evaluations_in_progress() const { return in_progress_; }
 
  private:
   static constexpr long long all_bits = -1;
@@ -313,7 +313,7 @@ class LaneEnsemble::Impl {
     bool ended = false;
     bool fresh = false;         ///< its first slope is not that of this place yet
     double proposed = 0;        ///< length of the next evolution's first step; 0 if not known
-    std::vector<double> stops;  ///< breakpoints on the way, and the end
+    std::vector<double> stops;  ///< breakpoints up to the end, and the end
     std::size_t next_stop = 0;
     std::span<const double> samples;
     const Observer* observer = nullptr;
@@ -347,7 +347,7 @@ class LaneEnsemble::Impl {
     ++fresh_;
   }
 
-  /// Tells the field the step's places, without that of its start if its slopes are there.
+  /// Passes the places of the step to the field, without its start if the slopes there are known.
   void set_places(bool with_start) {
     first_place_ = with_start ? 0 : 1;
     field_.set_places(places_.count - first_place_, at_.get() + first_place_ * w_);
@@ -356,7 +356,7 @@ class LaneEnsemble::Impl {
   void evaluate(std::size_t place, const double* y, Numbers& slope) {
     field_.right_hand_side(place - first_place_, y, slope.get());
     ++evaluated_;
-    under_way_ += running_;
+    in_progress_ += running_;
   }
 
   void measure_surfaces(std::size_t place, const double* y, SurfaceValues& surfaces) {
@@ -459,7 +459,7 @@ class LaneEnsemble::Impl {
     if (verdict.accepted < running_)
       kernels_.land(steps_, margin(), field_.surfaces, start_.values.get(), start_.rates.get(), end_.values.get(),
                     end_.rates.get());
-    if (verdict.eventful) look_closer();
+    if (verdict.eventful) handle_events();
     all_at_end_ = verdict.accepted == running_;
     if (verdict.accepted == w_) {
       std::swap(y_, next_);
@@ -480,7 +480,7 @@ class LaneEnsemble::Impl {
   }
 
   /// At events other than stops.
-  void look_closer() {
+  void handle_events() {
     take_last_slopes();
     for (std::size_t lane = 0; lane < w_; ++lane) {
       if (steps_.event[lane] == 0) continue;
@@ -510,7 +510,7 @@ class LaneEnsemble::Impl {
     steps_.norm.fill(worst);
   }
 
-  /// Of a lane whose step was not accepted, and will not be.
+  /// Ends the evolution of a lane whose step was not accepted and cannot be repeated.
   void give_up(std::size_t lane) {
     Lane& l = lanes_[lane];
     const double s = steps_.s[lane];
@@ -610,13 +610,13 @@ class LaneEnsemble::Impl {
   Numbers relative_, absolute_;  ///< tolerances of each lane
   std::vector<Lane> lanes_;
   std::vector<double> sample_;
-  std::size_t running_ = 0;      ///< lanes under way
+  std::size_t running_ = 0;      ///< lanes in progress
   std::size_t fresh_ = 0;        ///< above 0 if there is a fresh one
   bool have_first_ = false;      ///< slopes at the starts of the steps
-  bool all_at_end_ = false;      ///< all lanes under way are where their last step was to end
-  std::size_t first_place_ = 0;  ///< that the field was told
+  bool all_at_end_ = false;      ///< all lanes in progress are where their last step was to end
+  std::size_t first_place_ = 0;  ///< of those passed to the field
   std::size_t evaluated_ = 0;
-  std::size_t under_way_ = 0;  ///< lanes, summed over evaluations
+  std::size_t in_progress_ = 0;  ///< lanes, summed over evaluations
 };
 
 LaneEnsemble::LaneEnsemble(LaneField field, const IntegratorOptions& options, const StepLoops& kernels)
@@ -644,6 +644,6 @@ double LaneEnsemble::next_step(std::size_t lane) const { return impl_->next_step
 void LaneEnsemble::set_next_step(std::size_t lane, double step) { impl_->set_next_step(lane, step); }
 Work LaneEnsemble::work(std::size_t lane) const { return impl_->work(lane); }
 std::size_t LaneEnsemble::evaluations() const { return impl_->evaluations(); }
-std::size_t LaneEnsemble::evaluations_under_way() const { return impl_->evaluations_under_way(); }
+std::size_t LaneEnsemble::evaluations_in_progress() const { return impl_->evaluations_in_progress(); }
 
 }  // namespace epicyclic::integrate

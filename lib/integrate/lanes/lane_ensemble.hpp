@@ -5,28 +5,28 @@
 //   h <- h min(20, max(0.1, 0.96 (1.5 |e|)^(-1/5))), kept where it would grow by less than half         [I-lane]
 //
 // the norm, the safety and bias factors and the limits of ARKODE's I controller. A lane is never in step with the
-// others: its bits are those of a run alone, whatever the other lanes carry and however wide the registers are.
+// others: its bits are those of a run alone, whatever the other lanes integrate and however wide the registers are.
 //
-// That formula is one for smooth fields. Behind a kink the error falls with the square of the step's length and not
-// with its fifth power, so that a kink costs several refusals and the short steps after them. Where a refused step has
-// crossed a switching surface, the next attempt ends on it instead:
+// That formula is one for smooth fields. Across a kink the error falls with the square of the step's length, not with
+// its fifth power. So a kink costs several refusals and the short steps after them. If a refused step has crossed a
+// switching surface, the next attempt ends on it instead:
 //
 //   h <- h t ,  t the first root of the cubic through g and dg/ds at both ends of the step                [I-land]
 //
 // The kink then lies at the start of the step after that, but for an error that is squared. Nothing depends on the
 // root: the step is judged as any other, and its slopes are those of the field as it is.
 //
-// Slopes of tangent vectors jump at a kink. In a step that crosses one, or ends on it, some of them are those of the
-// wrong side, which leaves an error of first order, up to b_1 h (J+ - J-) v, whatever the tolerance: of one sign from
-// kink to kink where steps end on them, so that a torus seems to attract or to repel. Where vectors are carried, no
-// step but short ones cross a surface; steps end before it, and behind the short one the step's length is what it was:
+// Slopes of tangent vectors jump at a kink. In a step that crosses a kink, or ends on it, some of them belong to the
+// wrong side. The error is of first order, up to b_1 h (J+ - J-) v, whatever the tolerance. If steps end on kinks, it
+// has one sign at all of them, so that a torus seems to attract or to repel. With tangent vectors, only short steps
+// cross a surface. Steps end before it, and behind the short step the step's length is the previous one:
 //
 //   h <- h (t - m),  then  2 m h ,  m = 1e-2, or 1e-3 where errors of vectors count                       [I-hop]
 //
 // The kink is then in the midst of the short step, where its error is below 2 m b_1 h (J+ - J-) v.
 //
-// An evolution is begun in a lane and run() goes on until the first one has ended; the caller looks at it, and begins
-// the next one, of the same system or of another. Breakpoints are stepped onto; samples come from the cubic Hermite
+// An evolution is begun in a lane, and run() goes on until the first one has ended. The caller reads it, and begins the
+// next one, of the same system or of another. Breakpoints are stepped onto; samples come from the cubic Hermite
 // polynomial through both ends of a step, as ARKODE's do. Sources of the pairs: J. R. Dormand, P. J. Prince, J. Comput.
 // Appl. Math. 6 (1980) 19; J. R. Cash, A. H. Karp, ACM Trans. Math. Softw. 16 (1990) 201.
 #pragma once
@@ -73,7 +73,7 @@ class LaneEnsemble {
   /// Those of a lane's next evolutions; those of the options until they are set.
   void set_tolerances(std::size_t lane, double relative, double absolute);
 
-  /// Puts a system into a lane in which nothing is under way. `system` is kept until the next one.
+  /// Puts a system into an idle lane. `system` is kept until the next one.
   void load(std::size_t lane, const VectorField& system);
 
   /// As Flow::evolve(), but it has only begun; samples and observer are kept until it has ended.
@@ -83,7 +83,7 @@ class LaneEnsemble {
   [[nodiscard]] bool busy(std::size_t lane) const;
 
   /// Goes on until an evolution has ended.
-  /// @returns its lane, or width() if nothing is under way
+  /// @returns its lane, or width() if all lanes are idle
   std::size_t run();
 
   /// Of the lane's last evolution, once it has ended.
@@ -97,9 +97,9 @@ class LaneEnsemble {
   /// Right-hand sides that a lane's evolutions took since it was loaded, and steps attempted.
   [[nodiscard]] Work work(std::size_t lane) const;
 
-  /// Evaluations of the kernel, of all lanes at once, and the lanes that were under way, summed over them.
+  /// Evaluations of the kernel, of all lanes at once, and the lanes in progress, summed over them.
   [[nodiscard]] std::size_t evaluations() const;
-  [[nodiscard]] std::size_t evaluations_under_way() const;
+  [[nodiscard]] std::size_t evaluations_in_progress() const;
 
  private:
   class Impl;

@@ -29,7 +29,7 @@ std::unique_ptr<Flow> flow_alone(VectorField field, IntegratorOptions options) {
   return make_flow(std::move(field), options);
 }
 
-/// One evolution that waits for a lane, or is under way.
+/// One evolution that waits for a lane, or is in progress.
 struct Request {
   const void* flow = nullptr;  ///< whose system it is
   const VectorField* system = nullptr;
@@ -62,11 +62,11 @@ Work since(const Work& before, Work now) {
   return now;
 }
 
-/// Lanes of one kind, each with a motion of its own.
+/// Lanes of one kind, each with a trajectory of its own.
 class Shared {
  public:
   explicit Shared(std::unique_ptr<LaneEnsemble> lanes)
-      : lanes_(std::move(lanes)), under_way_(lanes_->width()), loaded_(lanes_->width()) {}
+      : lanes_(std::move(lanes)), in_progress_(lanes_->width()), loaded_(lanes_->width()) {}
 
   void take(Request& request) { waiting_.push_back(&request); }
   void forget(const void* flow) {
@@ -79,8 +79,8 @@ class Shared {
   /// Idle lanes take what waits: first those that have the system already, then the longest waiting.
   /// @param failed  gets the requests that do not fit
   void fill(std::vector<Request*>& failed) {
-    for (std::size_t lane = 0; lane < under_way_.size() && !waiting_.empty(); ++lane) {
-      if (under_way_[lane] != nullptr || loaded_[lane] == nullptr) continue;
+    for (std::size_t lane = 0; lane < in_progress_.size() && !waiting_.empty(); ++lane) {
+      if (in_progress_[lane] != nullptr || loaded_[lane] == nullptr) continue;
       const auto it = std::find_if(waiting_.begin(), waiting_.end(),
                                    [&](const Request* request) { return request->flow == loaded_[lane]; });
       if (it == waiting_.end()) continue;
@@ -88,8 +88,8 @@ class Shared {
       waiting_.erase(it);
       begin(lane, *request, failed);
     }
-    for (std::size_t lane = 0; lane < under_way_.size(); ++lane) {
-      while (under_way_[lane] == nullptr && !waiting_.empty()) {
+    for (std::size_t lane = 0; lane < in_progress_.size(); ++lane) {
+      while (in_progress_[lane] == nullptr && !waiting_.empty()) {
         Request* const request = waiting_.front();
         waiting_.pop_front();
         begin(lane, *request, failed);
@@ -99,10 +99,10 @@ class Shared {
 
   [[nodiscard]] std::size_t busy() const { return busy_; }
 
-  /// Goes on until an evolution has ended, with lanes under way.
+  /// Goes on until an evolution has ended, with lanes in progress.
   Request& run() {
     const std::size_t lane = lanes_->run();
-    Request& request = *std::exchange(under_way_[lane], nullptr);
+    Request& request = *std::exchange(in_progress_[lane], nullptr);
     --busy_;
     lanes_->copy_state(lane, request.state);
     request.evolution = lanes_->evolution(lane);
@@ -111,7 +111,7 @@ class Shared {
     return request;
   }
 
-  [[nodiscard]] std::size_t width() const { return under_way_.size(); }
+  [[nodiscard]] std::size_t width() const { return in_progress_.size(); }
   [[nodiscard]] const LaneEnsemble& lanes() const { return *lanes_; }
 
  private:
@@ -125,7 +125,7 @@ class Shared {
       request.work = lanes_->work(lane);
       prepare(*lanes_, lane, request);
       lanes_->begin(lane, request.state, request.from, request.to, request.samples, *request.observer);
-      under_way_[lane] = &request;
+      in_progress_[lane] = &request;
       ++busy_;
     } catch (const InputError&) {
       request.failure = std::current_exception();
@@ -134,13 +134,13 @@ class Shared {
   }
 
   std::unique_ptr<LaneEnsemble> lanes_;
-  std::vector<Request*> under_way_;  ///< by lane
-  std::vector<const void*> loaded_;  ///< whose system a lane has
+  std::vector<Request*> in_progress_;  ///< by lane
+  std::vector<const void*> loaded_;    ///< whose system a lane has
   std::deque<Request*> waiting_;
   std::size_t busy_ = 0;
 };
 
-/// One motion, its tangent vectors over all lanes: vector j is that number j / W of lane j % W.
+/// One trajectory, its tangent vectors over all lanes: vector j is that number j / W of lane j % W.
 class Bundle {
  public:
   Bundle(std::unique_ptr<LaneEnsemble> lanes, std::size_t dimension, std::size_t each)
@@ -152,7 +152,7 @@ class Bundle {
   void forget(const void* flow) { loaded_ = loaded_ == flow ? nullptr : loaded_; }
 
   /// @throws InputError when the system does not fit the lanes
-  void carry(Request& request, std::span<double> tangents, bool controlled) {
+  void integrate(Request& request, std::span<double> tangents, bool controlled) {
     const std::size_t width = lanes_->width();
     const std::size_t count = tangents.size() / dimension_;
     const auto each_vector = [&](std::size_t lane, const auto& f) {
@@ -217,13 +217,13 @@ class LanePool::Impl {
   }
   [[nodiscard]] std::size_t taken() const {
     std::size_t sum = 0;
-    for (const Shared* kind : kinds()) sum += kind->lanes().evaluations_under_way();
+    for (const Shared* kind : kinds()) sum += kind->lanes().evaluations_in_progress();
     return sum;
   }
 
   /// Returns when it is done.
   /// @param with_tangent  the state has one behind it
-  void carry(Request& request, bool with_tangent) {
+  void integrate(Request& request, bool with_tangent) {
     request.fiber = Fiber::current();
     (with_tangent ? *tangents_ : *states_).take(request);
     if (request.fiber != nullptr) {
@@ -234,15 +234,15 @@ class LanePool::Impl {
     if (request.failure) std::rethrow_exception(request.failure);
   }
 
-  /// Carries a state with several tangent vectors.
-  void carry_bundle(Request& request, std::span<double> tangents, bool controlled) {
+  /// Integrates a state with several tangent vectors.
+  void integrate_bundle(Request& request, std::span<double> tangents, bool controlled) {
     const std::size_t count = tangents.size() / request.state.size();
     const std::size_t each = (count + width() - 1) / width();
     std::unique_ptr<Bundle>& bundle = bundles_[each];
     if (!bundle)
       bundle = std::make_unique<Bundle>(std::make_unique<LaneEnsemble>(fields_(each), options_, kernels_),
                                         request.state.size(), each);
-    bundle->carry(request, tangents, controlled);
+    bundle->integrate(request, tangents, controlled);
   }
 
   void run(std::size_t count, const std::function<void()>& work) {
@@ -255,7 +255,7 @@ class LanePool::Impl {
       while (go_on()) {
       }
     } catch (...) {
-      // What others have under way ends with them.
+      // The evolutions of the other fibers end with them.
       fibers.clear();
       ready_.clear();
       parked_.clear();
@@ -311,7 +311,7 @@ class LanePool::Impl {
   }
 
   /// Goes on until one evolution has ended, in the lanes that are fullest.
-  /// @returns false if nothing is under way
+  /// @returns false if no evolution is in progress
   bool advance() {
     std::vector<Request*> failed;
     states_->fill(failed);
@@ -366,7 +366,7 @@ class LanePool::PooledFlow final : public Flow {
       Request request = request_of(state, from, to);
       request.samples = samples;
       request.observer = &observer;
-      if (carried(request, [&] { pool_.carry(request, false); })) {
+      if (integrated(request, [&] { pool_.integrate(request, false); })) {
         work_.right_hand_sides += request.work.right_hand_sides;
         return request.evolution;
       }
@@ -383,15 +383,15 @@ class LanePool::PooledFlow final : public Flow {
       std::vector<double> both;
       Request request = request_of(state, from, to);
       request.observer = &nobody;
-      const bool fitted = carried(request, [&] {
+      const bool fitted = integrated(request, [&] {
         if (tangents.size() != n || options_.tangent_error_control) {
-          pool_.carry_bundle(request, tangents, options_.tangent_error_control);
+          pool_.integrate_bundle(request, tangents, options_.tangent_error_control);
           return;
         }
         both.assign(state.begin(), state.end());
         both.insert(both.end(), tangents.begin(), tangents.end());
         request.state = both;
-        pool_.carry(request, true);
+        pool_.integrate(request, true);
         std::copy_n(both.begin(), n, state.begin());
         std::copy_n(both.begin() + static_cast<std::ptrdiff_t>(n), n, tangents.begin());
       });
@@ -431,12 +431,12 @@ class LanePool::PooledFlow final : public Flow {
     return request;
   }
 
-  /// @returns false if the system does not fit the lanes: of another structure than the others, as where a swept value
-  /// turns something off
+  /// @returns false if the system does not fit the lanes: it has another structure than the others, for example because
+  /// a swept value switches something off
   template <class F>
-  bool carried(const Request& request, const F& carry) {
+  bool integrated(const Request& request, const F& integration) {
     try {
-      carry();
+      integration();
     } catch (const InputError&) {
       fits_ = false;
       return false;

@@ -1,11 +1,11 @@
-// Lanes that many motions share, each carried by a function that is written as if it were alone.
+// Lanes that many trajectories share, each integrated by a function that is written as if it were alone.
 //
-// run() starts fibers [core/fiber.hpp]. In each of them flows of the pool are used as any flows; an evolution waits for
-// a lane, and other fibers go on meanwhile. With more fibers than lanes the lanes are always taken. A motion's bits are
-// those of a lane alone [lane_ensemble.hpp], so nothing depends on what else is under way.
+// run() starts fibers [core/fiber.hpp]. A fiber uses flows of the pool like any flows. An evolution waits for a lane,
+// and other fibers go on meanwhile. With more fibers than lanes the lanes are always taken. A trajectory's bits are
+// those of a lane alone [lane_ensemble.hpp], so nothing depends on the other evolutions.
 //
-// One tangent vector rides beside its state in a lane. Many of them, as for a monodromy, are lanes of one another: the
-// state is the same in each, the steps are those of the worst, and they are through at once.
+// One tangent vector is integrated beside its state in a lane. Many of them, as for a monodromy, are lanes of one
+// another: the state is the same in each, the steps are those of the worst, and they are through at once.
 //
 // Limits: a pool, its flows and its fibers belong to one thread. The derivative with respect to a parameter is
 // ARKODE's.
@@ -36,7 +36,7 @@ class LanePool {
 
   [[nodiscard]] std::size_t width() const;
 
-  /// A flow whose evolutions take a lane each. A field that cannot run beside the others is carried alone.
+  /// A flow whose evolutions take a lane each. A field that cannot run beside the others is integrated alone.
   /// @throws InputError for options out of range
   [[nodiscard]] std::unique_ptr<Flow> make_flow(VectorField field, const IntegratorOptions& options);
 
@@ -47,8 +47,7 @@ class LanePool {
   /// In a fiber: others go on until `over` returns true. It may wait for another thread.
   void wait(const std::function<bool()>& over);
 
-  /// Evaluations of the right-hand side that there was room for in the lanes that motions share, and those of them that
-  /// were of a motion.
+  /// Evaluations of the right-hand side for which the shared lanes had room, and the number of them that were used.
   [[nodiscard]] std::size_t room() const;
   [[nodiscard]] std::size_t taken() const;
 

@@ -98,7 +98,7 @@ struct StepLoops {
 };
 
 /// The widest that this machine runs.
-/// @param copy  any number: kernel_copies of them are taken in turn
+/// @param copy  any number: the kernel_copies copies are used cyclically
 [[nodiscard]] const StepLoops& step_loops(std::size_t copy = 0);
 
 /// Those of one instruction set, or nullptr if it was not compiled or this machine does not run it.

@@ -33,17 +33,16 @@ constexpr double max_growth = 20.0;
 /// Error tests in a row that a step may fail. Tangents jump in slope at a kink: a step over it shrinks from its usual
 /// length to that of the tolerance, by a factor of about 3 each time; ARKODE's own limit of 7 is not enough.
 constexpr int most_refusals = 60;
-/// What Newton's method may leave of a stage, in parts of the step's own error: with the default of a tenth the sum
-/// over stages and steps is as large as the error of the method.
+/// Tolerance of Newton's method for a stage, in parts of the step's own error: with the default of a tenth the sum over
+/// stages and steps is as large as the error of the method.
 constexpr double newton_tolerance = 1e-2;
 /// How much the estimated rate of convergence may fall from one iteration to the next. ARKODE multiplies a correction
-/// by that rate before it compares it with the tolerance, and carries it on from step to step. On a side of a kink,
-/// where the equations are linear, the rate falls to nothing; past the kink, with the Jacobian of the other side, any
-/// first iterate is then accepted (measured: errors of 1e-4 at a tolerance of 1e-10). 1 keeps the estimate at its
-/// start, 1.
+/// by that rate before it compares it with the tolerance, and keeps it from step to step. On a side of a kink, where
+/// the equations are linear, the rate falls to nothing; past the kink, with the Jacobian of the other side, any first
+/// iterate is then accepted (measured: errors of 1e-4 at a tolerance of 1e-10). 1 keeps the estimate at its start, 1.
 constexpr double rate_memory = 1.0;
 constexpr int newton_iterations = 8;
-/// Of the dense output, a Hermite polynomial through both ends of a step: not beyond what the method deserves.
+/// Degree of the dense output, a Hermite polynomial through both ends of a step: not above the order of the method.
 int interpolant_degree(const Method& method) { return std::min(3, method.order - 1); }
 
 /// The pair's table, with its first-same-as-last stage written out where it must be.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::align_val_t alignment{64};
 
-/// What weighted norms look at: numbers with padding, and how many of them are true.
+/// The numbers that weighted norms read: with padding, and how many of them are values.
 std::size_t measured_size(N_Vector v) { return content_of(v).stride * content_of(v).shape.measured_columns; }
 double measured_count(N_Vector v) {
   const VectorShape& s = content_of(v).shape;
@@ -86,8 +86,8 @@ N_Vector clone(N_Vector like) {
 
 [[noreturn]] void throw_bad_alloc() { throw std::bad_alloc(); }
 
-/// SUNDIALS 6 uses the clone before it looks whether there is one [N_VClone()]: a lack of memory ends the program here,
-/// by std::terminate() with std::bad_alloc, and not by a null pointer.
+/// SUNDIALS 6 uses the clone before it checks whether there is one [N_VClone()]: a lack of memory ends the program
+/// here, by std::terminate() with std::bad_alloc, and not by a null pointer.
 template <N_Vector (*make)(N_Vector)>
 N_Vector whole(N_Vector like) noexcept {
   N_Vector v = make(like);
@@ -145,7 +145,7 @@ realtype weighted_square_sum(N_Vector x, N_Vector w) {
 realtype wrms_norm(N_Vector x, N_Vector w) { return std::sqrt(weighted_square_sum(x, w) / measured_count(x)); }
 realtype wl2_norm(N_Vector x, N_Vector w) { return std::sqrt(weighted_square_sum(x, w)); }
 
-// The operations below are asked for by constraints and preconditioners only: plain loops.
+// Only constraints and preconditioners need the operations below: plain loops.
 
 realtype masked_square_sum(N_Vector x, N_Vector w, N_Vector id) {
   double sum = 0.0;

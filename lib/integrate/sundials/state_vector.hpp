@@ -2,11 +2,11 @@
 //
 // SUNDIALS' stock serial vector spends most of a small system's Runge-Kutta step in loops that go through memory once
 // for each operand. Here a linear combination of many vectors is one pass, and the error weights one more. Every
-// operation that ARKODE and CVODE may ask for is there; each states what it computes in the SUNDIALS user guide.
-// Results do not depend on the instruction set (integrate/sundials/vector_kernels.hpp).
+// operation that ARKODE and CVODE may call is there; each states what it computes in the SUNDIALS user guide. Results
+// do not depend on the instruction set (integrate/sundials/vector_kernels.hpp).
 //
 // A vector may have several columns of the same length, the state and its tangent vectors; norms that measure errors
-// may be told to look at the first column alone, and are then those of a vector of one column to the last bit.
+// can be limited to the first column, and are then those of a vector of one column to the last bit.
 //
 // Limits: doubles, one process, one thread per vector. Its identity is SUNDIALS_NVEC_CUSTOM.
 #pragma once
@@ -28,7 +28,7 @@ struct VectorDeleter {
 };
 using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, VectorDeleter>;
 
-/// Columns of a vector, and how many of them weighted norms look at.
+/// Columns of a vector, and how many of them weighted norms read.
 struct VectorShape {
   std::size_t length = 0;  ///< true numbers in a column
   std::size_t columns = 1;
@@ -48,7 +48,7 @@ struct VectorShape {
   return make_state_vector(VectorShape{dimension, 1, 1}, context, kernels_to_use);
 }
 
-/// What stands behind the content pointer of an N_Vector of ours.
+/// Content of the project's N_Vector.
 struct StateVectorContent {
   VectorShape shape;
   std::size_t stride = 0;  ///< of a column, with padding
@@ -62,7 +62,7 @@ struct StateVectorContent {
 
 /// The numbers of a state vector; aligned to 64 bytes, each column padded with zeros to a multiple of `vector_block`.
 [[nodiscard]] inline double* data_of(N_Vector v) { return content_of(v).data; }
-/// From the first number of a column to that of the next.
+/// Distance from the first number of a column to that of the next.
 [[nodiscard]] inline std::size_t column_stride(N_Vector v) { return content_of(v).stride; }
 [[nodiscard]] inline const VectorShape& shape_of(N_Vector v) { return content_of(v).shape; }
 /// Numbers of all columns with padding.

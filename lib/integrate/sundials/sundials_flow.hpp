@@ -1,8 +1,8 @@
 // The Flow that every solver of SUNDIALS is wrapped into; `Stepper` is what differs between ARKODE's and CVODE's.
 //
-// An evolution is cut at the breakpoints. Each piece restarts the solver, tells it to stop exactly at the piece's end,
-// and takes one step at a time, so that samples, the escape bound, the step limit and contact changes are seen at every
-// accepted step. A Stepper has
+// An evolution is split at the breakpoints. Each segment restarts the solver, makes it stop exactly at the segment's
+// end, and takes one step at a time. So samples, the escape bound, the step limit and contact changes are tested at
+// every accepted step. A Stepper has
 //
 //   Stepper(SundialsSystem&, N_Vector, SUNContext, const Method&, const IntegratorOptions&, double fixed_step)
 //   void start(double s, N_Vector y, double first_step)      restart; 0 lets the solver choose the step
@@ -61,7 +61,7 @@ class Integration {
   [[nodiscard]] bool parameter() const { return system_.parameter; }
   [[nodiscard]] double* column(std::size_t j) { return data_of(y_.get()) + j * column_stride(y_.get()); }
 
-  /// From `from` to `to`, starting at the columns as they are.
+  /// Evolves the columns from `from` to `to`.
   /// @param next_step  length of the first step, replaced by that of the next one
   Evolution evolve(double from, double to, std::span<const double> samples, const Observer& observer,
                    double& next_step) {
@@ -89,7 +89,7 @@ class Integration {
   struct Crossing {
     std::size_t surface = 0;
     double s = 0;
-    bool extremum = false;  ///< not of the surface: where its value is so near to it that the step has to tell the side
+    bool extremum = false;  ///< not of the surface: its value is so near to it that the step has to determine the side
   };
 
   Evolution evolve_segment(double from, double to, double& next_step) {
@@ -235,7 +235,7 @@ class Integration {
   /// How a step may have been on the other side of a surface that it begins and ends on one side of.
   struct Visit {
     double s = 0;        ///< of the extremum
-    bool clear = false;  ///< it is beyond the surface, else too near to tell
+    bool clear = false;  ///< it is beyond the surface, else too near to decide
   };
 
   /// An orbit that just makes or loses contact does so between the ends of a step.
@@ -251,7 +251,7 @@ class Integration {
     const double c2 = 3.0 * (v1 - v0) - 2.0 * d0 - d1, c3 = d0 + d1 - 2.0 * (v1 - v0);
     const double t = std::clamp(-d0 / (c2 + std::sqrt(std::max(0.0, c2 * c2 - 3.0 * c3 * d0))), 0.0, 1.0);
     const double least = v0 + t * (d0 + t * (c2 + t * c3));
-    // The cubic is off by the fourth power of the step: far from the surface nothing is asked.
+    // The error of the cubic is of the fourth power of the step: far from the surface no test is needed.
     constexpr double far = 0.3;
     const double scale = std::max(v0, v1);
     if (!(least < far * scale)) return std::nullopt;
@@ -276,12 +276,12 @@ class Integration {
   static constexpr double nearest_to_ends = 1e-6;
 
   /// The first surface that the accepted step from a to b has crossed, and where: the root of its value along steps of
-  /// the method itself, so that the crossing is as accurate as the method and not as its dense output.
+  /// the method itself. So the crossing is as accurate as the method, more accurate than its dense output.
   bool find_crossing(double a, double b, double first_step, Crossing& crossing) {
     bool found = false;
     const std::vector<double> at_end = surfaces(b, y_.get());
     const std::vector<double> rates_at_end = rates_;
-    // Of a step so short there are no places between its ends, and a kink in it is worth its square.
+    // A step this short has no places between its ends, and the error of a kink in it is of the order of its square.
     const bool resolved = nearest_to_ends * (b - a) > 4.0 * std::numeric_limits<double>::epsilon() * std::max(1.0, b);
     for (std::size_t k = 0; k < side_.size(); ++k) {
       const double sign = side_[k] ? 1.0 : -1.0;
@@ -303,7 +303,7 @@ class Integration {
         side_[k] = !side_[k];
         continue;
       }
-      // Where the state is just after a crossing of this very surface, its value is rounding, of either sign.
+      // Just after a crossing of the same surface, its value is rounding, of either sign.
       const double at_start = sign * start_values_[k];
       const double length = b - a;
       constexpr double nothing = 1e-9;

@@ -233,7 +233,7 @@ std::vector<DrawnFigure> draw_basins_figure(const std::filesystem::path& folder,
   const std::size_t undecided = classes.size() - 2;
   classes[undecided].label +=
       ", " + share_text(static_cast<double>(std::count(cells.begin(), cells.end(), undecided)) / total);
-  const figures::FigureText text{figures::literal_text(output.title), component_label(output.plane.first.name),
+  const figures::FigureText text{figures::verbatim_text(output.title), component_label(output.plane.first.name),
                                  component_label(output.plane.second.name)};
   return {{folder / "basins.png",
            figures::class_figure(folder, "basins", text,

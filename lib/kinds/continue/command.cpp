@@ -196,7 +196,7 @@ class PartialTables {
     if (begun < due_) return;
     TracedBranches traced;
     traced.branches = tree.branches();
-    if (auto branch = tree.under_way()) {
+    if (auto branch = tree.unfinished_branch()) {
       branch->last.message = "is still being continued";
       traced.branches.push_back(*std::move(branch));
     }

@@ -75,7 +75,7 @@ const Table<studies::LociOptions>& loci_table() {
     t.number("from", &LociOptions::from, any_value, "Its least value, in its unit.").required();
     t.number("to", &LociOptions::to, any_value, "Its greatest value, in its unit.").required();
     std::vector<std::pair<std::string, SpecialKind>> kinds;
-    for (const auto kind : {SpecialKind::fold, SpecialKind::flip, SpecialKind::neimark_sacker,
+    for (const auto kind : {SpecialKind::fold, SpecialKind::period_doubling, SpecialKind::neimark_sacker,
                             SpecialKind::branch_point, SpecialKind::grazing})
       kinds.emplace_back(to_string(kind), kind);
     t.choices("kinds", &LociOptions::kinds, kinds, "Kinds of points whose loci are continued.");

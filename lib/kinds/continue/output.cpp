@@ -300,7 +300,7 @@ struct KindStyle {
 };
 constexpr std::array<KindStyle, 6> kind_styles = {{{SpecialKind::grazing, figures::ink::light_grey, 1.0, 6},
                                                    {SpecialKind::fold, figures::ink::dark_grey, 1.3, 7},
-                                                   {SpecialKind::flip, figures::ink::green, 1.4, 9},
+                                                   {SpecialKind::period_doubling, figures::ink::green, 1.4, 9},
                                                    {SpecialKind::neimark_sacker, figures::ink::ochre, 1.4, 13},
                                                    {SpecialKind::branch_point, figures::ink::purple, 1.3, 5},
                                                    {SpecialKind::unresolved, figures::ink::red, 1.8, 2}}};
@@ -314,7 +314,7 @@ SpecialLetters letters_of(SpecialKind kind) {
   switch (kind) {
     case SpecialKind::fold:
       return {"LP", "fold"};
-    case SpecialKind::flip:
+    case SpecialKind::period_doubling:
       return {"PD", "period doubling (flip)"};
     case SpecialKind::neimark_sacker:
       return {"NS", "Neimark-Sacker"};
@@ -555,7 +555,7 @@ void BranchSketch::add_multipliers() {
 
 DrawnFigure BranchSketch::draw(const std::filesystem::path& folder, const std::string& title_more) {
   const char* subscript = mesh_ == MeshKind::sun_planet ? "sp" : "rp";
-  figures::FigureText text{figures::literal_text(output_.title) + title_more,
+  figures::FigureText text{figures::verbatim_text(output_.title) + title_more,
                            parameter_label(output_.options.parameter), ""};
   for (const auto& rows : traced_.rows)
     for (const studies::BranchRow& row : rows)
@@ -617,7 +617,7 @@ DrawnFigure draw_loci(const std::filesystem::path& folder, const ContinueOutput&
         sketch.add(places, figures::dots("#000000", 1.4), {});
         sketch.letters(places, letter, "offset 1.2,0.8");
       }
-  const figures::FigureText text{figures::literal_text(output.title), parameter_label(output.options.parameter),
+  const figures::FigureText text{figures::verbatim_text(output.title), parameter_label(output.options.parameter),
                                  parameter_label(options.parameter)};
   figures::FigureRange x, y;
   for (const double value : {output.options.from, output.options.to}) x.include(value);

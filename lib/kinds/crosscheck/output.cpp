@@ -109,7 +109,7 @@ DrawnFigure draw_crosscheck_figure(const std::filesystem::path& folder, const Sw
                                    const studies::Crosscheck& all, double orbit_tolerance) {
   std::vector<figures::FigureCurve> curves;
   for (std::size_t v = 1; v < all.variants.size(); ++v) {
-    figures::FigureCurve curve{figures::literal_text(all.variants[v].label), {}, {}, true};
+    figures::FigureCurve curve{figures::verbatim_text(all.variants[v].label), {}, {}, true};
     for (const Comparison& c : all.comparisons) {
       if (c.variant != v || !std::isfinite(c.distance)) continue;
       curve.x.push_back(all.reference[c.point].point.value);
@@ -123,8 +123,8 @@ DrawnFigure draw_crosscheck_figure(const std::filesystem::path& folder, const Sw
     curves.push_back(
         {"orbit tolerance", {output.sweep.axis.from, output.sweep.axis.to}, {orbit_tolerance, orbit_tolerance}, false});
   const figures::FigureText text{
-      figures::literal_text(output.title), parameter_label(output.sweep.axis.name),
-      fmt::format("Distance from the orbit of {}  [b_c, b_c/τ]", figures::literal_text(all.variants[0].label))};
+      figures::verbatim_text(output.title), parameter_label(output.sweep.axis.name),
+      fmt::format("Distance from the orbit of {}  [b_c, b_c/τ]", figures::verbatim_text(all.variants[0].label))};
   return {folder / "crosscheck.png",
           figures::line_figure(folder, "crosscheck", text, curves, {.log_x = false, .log_y = true})};
 }

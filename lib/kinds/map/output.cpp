@@ -109,7 +109,7 @@ std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, c
   for (const Direction direction : output.map.directions) {
     const std::string word = store::direction_word(direction);
     const figures::FigureText text{
-        figures::literal_text(output.title) + (output.map.directions.size() > 1 ? ", " + word : ""),
+        figures::verbatim_text(output.title) + (output.map.directions.size() > 1 ? ", " + word : ""),
         parameter_label(output.map.plane.first.name), parameter_label(output.map.plane.second.name),
         speed_above(output.map.plane.first.name, output.speed, points)};
     const std::string regimes = "regimes_" + word;

@@ -108,7 +108,7 @@ class RunFigures {
         output_(output),
         result_(result),
         h_(result.history),
-        title_(figures::literal_text(output.points.title)) {}
+        title_(figures::verbatim_text(output.points.title)) {}
 
   std::vector<DrawnFigure> draw() {
     if (h_.rows() > 0 && h_.phases > 0) {

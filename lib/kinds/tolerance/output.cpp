@@ -83,7 +83,7 @@ std::vector<figures::FigureCurve> ladder_curves(const ToleranceOutput& output,
   const std::map<Key, Mean> all = means(output, points);
   std::vector<figures::FigureCurve> curves;
   for (const std::string& method : output.options.methods) {
-    figures::FigureCurve curve{figures::literal_text(method), {}, {}, false, true};
+    figures::FigureCurve curve{figures::verbatim_text(method), {}, {}, false, true};
     for (const double tolerance : output.options.tolerances) {
       const auto m = all.find({method, tolerance});
       if (m == all.end()) continue;
@@ -319,7 +319,7 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
 std::vector<DrawnFigure> draw_tolerance_figures(const std::filesystem::path& folder, const ToleranceOutput& output,
                                                 const std::vector<TolerancePoint>& points) {
   std::vector<DrawnFigure> figures;
-  const std::string title = figures::literal_text(output.sweep.title);
+  const std::string title = figures::verbatim_text(output.sweep.title);
   const figures::FigureAxes logarithmic{.log_x = true, .log_y = true};
   const std::string error_label = "Error of the flow over one orbit  [b_c, b_c/τ]";
   const auto draw = [&](const std::string& stem, const std::string& x, const std::string& y,

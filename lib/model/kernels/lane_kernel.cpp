@@ -6,18 +6,19 @@
 
 namespace epicyclic::model {
 
-#define EPICYCLIC_DECLARE_KERNELS                                                                                      \
-  template <std::size_t N, std::size_t W>                                                                              \
-  void prepare_lanes(const LaneParameters<N, W>&, std::size_t, const double*, PhaseCoefficients<Lanes<W>, N>*);        \
-  template <Layout L, std::size_t N, std::size_t W>                                                                    \
-  void evaluate_lanes(const LaneParameters<N, W>&, const PhaseCoefficients<Lanes<W>, N>&, const double*, double*);     \
-  template <std::size_t N, std::size_t W>                                                                              \
-  void push_lanes(Layout, const LaneParameters<N, W>&, const PhaseCoefficients<Lanes<W>, N>&, const double*,           \
-                  const double*, double*, double*);                                                                    \
-  template <std::size_t N, std::size_t W>                                                                              \
-  void look_lanes(Layout, const LaneParameters<N, W>&, const PhaseCoefficients<Lanes<W>, N>&, const double*, double*); \
-  template <Layout L, std::size_t N, std::size_t W>                                                                    \
-  void measure_contacts(const LaneParameters<N, W>&, const PhaseCoefficients<Lanes<W>, N>&, const double*, double*,    \
+#define EPICYCLIC_DECLARE_KERNELS                                                                                   \
+  template <std::size_t N, std::size_t W>                                                                           \
+  void prepare_lanes(const LaneParameters<N, W>&, std::size_t, const double*, PhaseCoefficients<Lanes<W>, N>*);     \
+  template <Layout L, std::size_t N, std::size_t W>                                                                 \
+  void evaluate_lanes(const LaneParameters<N, W>&, const PhaseCoefficients<Lanes<W>, N>&, const double*, double*);  \
+  template <std::size_t N, std::size_t W>                                                                           \
+  void push_lanes(Layout, const LaneParameters<N, W>&, const PhaseCoefficients<Lanes<W>, N>&, const double*,        \
+                  const double*, double*, double*);                                                                 \
+  template <std::size_t N, std::size_t W>                                                                           \
+  void evaluate_output_lanes(Layout, const LaneParameters<N, W>&, const PhaseCoefficients<Lanes<W>, N>&,            \
+                             const double*, double*);                                                               \
+  template <Layout L, std::size_t N, std::size_t W>                                                                 \
+  void measure_contacts(const LaneParameters<N, W>&, const PhaseCoefficients<Lanes<W>, N>&, const double*, double*, \
                         double*);
 namespace baseline {
 EPICYCLIC_DECLARE_KERNELS
@@ -92,14 +93,16 @@ template <std::size_t N, std::size_t W>
 OutputKernel<N, W> output_kernel(const char* name) {
   const std::string_view wanted(name);
   if constexpr (W == 2) {
-    if (wanted == "baseline") return {&baseline::prepare_lanes<N, W>, &baseline::look_lanes<N, W>};
+    if (wanted == "baseline") return {&baseline::prepare_lanes<N, W>, &baseline::evaluate_output_lanes<N, W>};
   }
 #ifdef EPICYCLIC_X86_KERNELS
   if constexpr (W == 4) {
-    if (wanted == "avx2" && machine_runs(wanted)) return {&avx2::prepare_lanes<N, W>, &avx2::look_lanes<N, W>};
+    if (wanted == "avx2" && machine_runs(wanted))
+      return {&avx2::prepare_lanes<N, W>, &avx2::evaluate_output_lanes<N, W>};
   }
   if constexpr (W == 8) {
-    if (wanted == "avx512" && machine_runs(wanted)) return {&avx512::prepare_lanes<N, W>, &avx512::look_lanes<N, W>};
+    if (wanted == "avx512" && machine_runs(wanted))
+      return {&avx512::prepare_lanes<N, W>, &avx512::evaluate_output_lanes<N, W>};
   }
 #endif
   return {};

@@ -3,7 +3,7 @@
 //
 // The text is that of model/right_hand_side.hpp, with lanes for scalars. Each lane's bits depend neither on the others
 // nor on W nor on the instruction set; they differ from those of model/kernels/stage_kernel.hpp by the rounding of
-// sine, cosine and of places in tables. Limits: relative coordinates, but for looks.
+// sine, cosine and of places in tables. Limits: relative coordinates, except for outputs.
 #pragma once
 
 #include <cstddef>
@@ -43,7 +43,7 @@ struct OutputKernel {
   void (*prepare)(const LaneParameters<N, W>& p, std::size_t count, const double* s,
                   PhaseCoefficients<Lanes<W>, N>* phase_coefficients) = nullptr;
 
-  /// Of `phases_together` numbers in each row of y and of `rows`, the first W.
+  /// Uses the first W of the `phases_together` numbers in each row of y and of `rows`.
   void (*evaluate_outputs)(Layout layout, const LaneParameters<N, W>& p, const PhaseCoefficients<Lanes<W>, N>& now,
                            const double* y, double* rows) = nullptr;
 };
@@ -54,7 +54,7 @@ template <std::size_t N, std::size_t W>
 
 /// That of one instruction set, empty if it was not compiled or this machine does not run it, and in full coordinates.
 /// @param name "baseline" (W = 2), "avx2" (4) or "avx512" (8)
-/// @param copy  any number: kernel_copies of them are taken in turn
+/// @param copy  any number: the kernel_copies copies are used cyclically
 template <std::size_t N, std::size_t W>
 [[nodiscard]] LaneKernel<N, W> lane_kernel(Layout layout, const char* name, std::size_t copy);
 

@@ -1,8 +1,8 @@
 // Coefficients at the phases of a step's slopes, W operating points side by side: model/phase_coefficients.hpp with
 // lanes for scalars.
 //
-// Sine, cosine and the places in tables are chains of operations that wait for each other. So each is gone through for
-// all slopes before the next one: passes are short enough for a processor to work on those of several slopes at once.
+// Sine, cosine and the places in tables are chains of operations that wait for each other. So each operation runs for
+// all slopes before the next one: a processor then works on several slopes at once.
 #pragma once
 
 #include <algorithm>
@@ -17,19 +17,18 @@
 
 namespace epicyclic::model {
 
-/// Slopes that are gone through together: no pair of the lanes has more.
+/// Slopes that are computed together: no pair of the lanes has more.
 inline constexpr std::size_t slopes_together = 8;
 
-/// What the tables decide of one kind of mesh, for `count` slopes.
-/// @param kind  the mesh in the coefficients
+/// Coefficients from the tables of one kind of mesh, for `count` slopes.
 template <std::size_t N, std::size_t W>
-void look_up(const MeshParameters<Lanes<W>, N>& mesh, const LaneMeshPlaces<N, W>& places, std::size_t count,
-             const Lanes<W>* s, PhaseCoefficients<Lanes<W>, N>* phase_coefficients,
-             MeshCoefficients<Lanes<W>, N> PhaseCoefficients<Lanes<W>, N>::*kind) {
+void interpolate(const MeshParameters<Lanes<W>, N>& mesh, const LaneMeshPlaces<N, W>& places, std::size_t count,
+                 const Lanes<W>* s, PhaseCoefficients<Lanes<W>, N>* phase_coefficients,
+                 MeshCoefficients<Lanes<W>, N> PhaseCoefficients<Lanes<W>, N>::*kind) {
   const auto each = [&](std::size_t planet, const auto& place, const auto& take) {
     std::array<LaneInterval<W>, slopes_together> found;
     for (std::size_t k = 0; k < count; ++k)
-      found[k] = place.find(s[k] * (0.5 * std::numbers::inv_pi) + mesh.turns[planet]);
+      found[k] = place.find(s[k] * (0.5 * std::numbers::inv_pi) + mesh.phase_cycles[planet]);
     for (std::size_t k = 0; k < count; ++k) take(phase_coefficients[k].*kind, place.at(found[k]));
   };
   for (std::size_t i = 0; i < ((phase_coefficients->*kind).shared ? 1 : N); ++i) {
@@ -58,10 +57,10 @@ void make_phase_coefficients(const LaneParameters<N, W>& p, std::size_t count, c
     for (std::size_t k = 0; k < together; ++k)
       new (phase_coefficients + first + k)
           PhaseCoefficients<Lanes<W>, N>(constants, HarmonicBasis<Lanes<W>>(angle[k], harmonics));
-    look_up(constants.sun_planet, p.segment().sun_planet, together, s + first, phase_coefficients + first,
-            &PhaseCoefficients<Lanes<W>, N>::sun_planet);
-    look_up(constants.ring_planet, p.segment().ring_planet, together, s + first, phase_coefficients + first,
-            &PhaseCoefficients<Lanes<W>, N>::ring_planet);
+    interpolate(constants.sun_planet, p.segment().sun_planet, together, s + first, phase_coefficients + first,
+                &PhaseCoefficients<Lanes<W>, N>::sun_planet);
+    interpolate(constants.ring_planet, p.segment().ring_planet, together, s + first, phase_coefficients + first,
+                &PhaseCoefficients<Lanes<W>, N>::ring_planet);
   }
 }
 

@@ -19,7 +19,7 @@
 namespace epicyclic::model {
 
 /// right_hand_side() of N planets.
-/// @param layout  that which the kernel was asked for
+/// @param layout  the layout that the kernel was requested for
 template <std::size_t N>
 using StageKernel = void (*)(Layout layout, const Parameters<double, N>& p, std::size_t segment, double s,
                              const double* y, double* dyds);

@@ -1,0 +1,458 @@
+// What is known of one point of a sweep, of one orbit of a branch, or of a special point.
+import { Panel, View, dot, rangeOf, strokeLine } from './panel.js';
+import { theme } from './theme.js';
+import { axisLabel, capital, element, factorOf, number, rich, symbol, tableOf, unitText, withError } from './words.js';
+import { errorOf, specialName } from './diagram.js';
+
+/// One value with its error and unit.
+export function valueText(table, name, row) {
+  const column = table.byName.get(name);
+  if (column.form === 'words') return table.word(name, row);
+  const value = table.numbers(name)[row];
+  if (Number.isNaN(value)) return '';
+  const error = errorOf(table, name);
+  const factor = factorOf(column.unit);
+  const text = error ? withError(factor * value, factor * table.numbers(error)[row]) : number(factor * value, 7);
+  const unit = unitText(column.unit);
+  return unit ? `${text} ${unit}` : text;
+}
+
+const meshOf = /^(.*?)_(sp|rp)_(\d+)(_.*)?$/;
+
+/// Columns of each mesh as a table for each kind of mesh: a row for each quantity, a column for each planet.
+function meshTables(table, row) {
+  const tables = [
+    ['sp', 'Meshes of the sun with planets 1, 2, ...'],
+    ['rp', 'Meshes of the ring with planets 1, 2, ...'],
+  ].map(([kind, title]) => {
+    const planets = new Set();
+    const quantities = new Map();
+    for (const column of table.columns) {
+      const found = meshOf.exec(column.name);
+      if (!found || found[2] !== kind) continue;
+      planets.add(found[3]);
+      const key = `${found[1]}${found[4] ?? ''}`;
+      if (!quantities.has(key)) quantities.set(key, { column, cells: new Map() });
+      quantities.get(key).cells.set(found[3], column.name);
+    }
+    if (planets.size === 0) return null;
+    const rows = [...quantities].map(([key, { column, cells }]) => {
+      const unit = column.unit.startsWith('part of') ? '' : unitText(column.unit);
+      const head = element('span', { title: generic(column.meaning) }, wordsOf(key), unit ? ` [${unit}]` : '');
+      return [
+        head,
+        ...[...planets].map((planet) => {
+          const name = cells.get(planet);
+          if (!name) return '';
+          return table.isNumeric(name)
+            ? number(factorOf(column.unit) * table.numbers(name)[row], 5)
+            : table.word(name, row).replace(/\+/g, ', ');
+        }),
+      ];
+    });
+    return element(
+      'div',
+      {},
+      element('h4', { text: title }),
+      element(
+        'div',
+        { class: 'scroll' },
+        tableOf(
+          ['', ...planets].map((planet) => (planet ? `${kind} ${planet}` : '')),
+          rows,
+        ),
+      ),
+    );
+  });
+  return tables.some(Boolean) ? element('div', {}, tables) : null;
+}
+
+/// "delta_min" in words.
+function wordsOf(key) {
+  const known = new Map(
+    Object.entries({
+      contact: 'contact',
+      delta_min: 'least deflection',
+      delta_max: 'largest deflection',
+      delta_mean: 'mean deflection',
+      delta_rms: 'RMS deflection',
+      force_mean: 'mean force',
+      force_rms: 'RMS force',
+      force_max: 'largest force',
+      load_sharing: 'load sharing (mean)',
+      load_sharing_max: 'load sharing (largest)',
+      force_quasi_static_max: 'largest quasi-static force',
+      kv: 'dynamic factor K_v',
+      drive_time: 'part of the time on the drive flank',
+      loss_time: 'part of the time out of contact',
+      back_time: 'part of the time on the back flank',
+    }),
+  );
+  return known.get(key) ?? key.replace(/_/g, ' ');
+}
+const generic = (meaning) => (meaning ?? '').replace(/ mesh \d+\b/g, ' mesh');
+
+/// All other columns, each with its meaning.
+export function allValues(table, row) {
+  const rows = table.columns
+    .filter(({ name }) => !meshOf.test(name) && !/_error$/.test(name))
+    .map((column) => [
+      element('span', { title: column.name }, column.name),
+      valueText(table, column.name, row),
+      column.meaning,
+    ])
+    .filter(([, text]) => text !== '');
+  return tableOf(['Quantity', 'Value', 'Meaning'], rows);
+}
+
+/// A panel of its own, in a figure with a caption.
+export function smallFigure(caption, options) {
+  const host = element('figure', { class: 'small' });
+  const view = new View(options.xRange());
+  const panel = new Panel({ host, view, height: () => 240, ...options });
+  host.append(element('figcaption', {}, rich(caption)));
+  return { host, panel, view };
+}
+
+export function extent(values, margin = 0.05) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const value of values) if (Number.isFinite(value)) [low, high] = [Math.min(low, value), Math.max(high, value)];
+  return rangeOf(low, high, margin);
+}
+
+/// Two quantities of the section over each other, each to be chosen.
+export function sectionFigure(section, first, last, colour) {
+  const columns = section.columns;
+  if (columns.length < 2 || last <= first) return null;
+  const find = (name, otherwise) => columns.find((column) => column.name === name) ?? columns[otherwise];
+  let [xc, yc] = [
+    find('delta_sp_1', 0),
+    columns.find(({ name }) => name === 'delta_sp_1_rate') ?? find('delta_rp_1', 1),
+  ];
+  const values = (column) =>
+    Array.from(section.numbers(column.name).subarray(first, last), (value) => factorOf(column.unit) * value);
+  const figure = smallFigure(
+    `Poincaré section, one point each mesh period: ${last - first} ${last - first === 1 ? 'point' : 'points'}.`,
+    {
+      xLabel: () => axisLabel(xc),
+      yLabel: () => axisLabel(yc),
+      xRange: () => padded(extent(values(xc))),
+      range: () => padded(extent(values(yc))),
+      draw: (context, place) => {
+        const [xs, ys] = [values(xc), values(yc)];
+        const radius = (xs.length > 400 ? 1.4 : xs.length > 12 ? 2.2 : 3.5) * place.ratio;
+        for (let i = 0; i < xs.length; ++i) dot(context, place.x(xs[i]), place.y(ys[i]), radius, colour());
+      },
+    },
+  );
+  const chooser = (label, current, action) => {
+    const made = element(
+      'select',
+      {
+        'aria-label': label,
+        onchange: () => {
+          action(columns[made.selectedIndex]);
+          figure.view.full = padded(extent(values(xc)));
+          figure.view.x = [...figure.view.full];
+          figure.panel.relabel();
+        },
+      },
+      columns.map((column) => element('option', { text: column.name, selected: column === current })),
+    );
+    return made;
+  };
+  figure.host.append(
+    element(
+      'div',
+      { class: 'choosers' },
+      chooser('Abscissa of the section', xc, (column) => (xc = column)),
+      ' and ',
+      chooser('Ordinate of the section', yc, (column) => (yc = column)),
+    ),
+  );
+  return figure.host;
+}
+
+/// All points of a periodic orbit may be one: then a range around it.
+const padded = ([low, high]) => {
+  const wide = Math.max(high - low, 1e-3 * Math.max(Math.abs(low), Math.abs(high)), 1e-12);
+  const middle = 0.5 * (low + high);
+  return [middle - 0.55 * wide, middle + 0.55 * wide];
+};
+
+function spectrumFigure(study, row, colour) {
+  const { spectrum } = study;
+  const table = study.table('spectra');
+  if (!spectrum || !table) return null;
+  const logs = table.numbers('log10_amplitude').subarray(row * spectrum.orders, (row + 1) * spectrum.orders);
+  if (!logs.some(Number.isFinite)) return null;
+  const xs = Array.from(logs, (_, k) => k * spectrum.resolution);
+  const unit = { unit: 'b_c' };
+  const ys = () => Array.from(logs, (value) => factorOf(unit.unit) * 10 ** value);
+  const figure = smallFigure(
+    `Amplitude spectrum of δ_sp,1: root mean square over stretches of ${spectrum.periods} mesh periods. A line between two of these frequencies appears up to 15 % too small.`,
+    {
+      xLabel: () => 'Frequency over the mesh frequency',
+      yLabel: () => `Amplitude  [${unitText('b_c')}]`,
+      logarithmic: () => true,
+      xRange: () => [0, xs[xs.length - 1]],
+      range: () => {
+        const all = ys().filter((y) => y > 0);
+        const high = Math.max(...all);
+        return [Math.max(Math.min(...all), 1e-9 * high), 2 * high];
+      },
+      draw: (context, place) =>
+        strokeLine(
+          context,
+          place,
+          xs,
+          ys().map((y) => (y > 0 ? y : NaN)),
+          { colour: colour(), width: 1.2 },
+        ),
+    },
+  );
+  return figure.host;
+}
+
+/// Some mesh periods from the stored state: a quantity over the time, and a deflection over its rate.
+function historyFigures(study, row, colour) {
+  const { history } = study;
+  const table = study.table('histories');
+  const rows = history ? history.periods * history.phases + 1 : 0;
+  if (!table || (row + 1) * rows > table.rows) return [];
+  const values = ({ name, unit }) =>
+    Float64Array.from(table.numbers(name).subarray(row * rows, (row + 1) * rows), (value) => factorOf(unit) * value);
+  if (!values(table.columns[0]).some(Number.isFinite)) return [];
+  const times = Float64Array.from({ length: rows }, (_, k) => k / history.phases);
+  const chooser = (columns, text, action) => {
+    const made = element(
+      'select',
+      { 'aria-label': text, onchange: () => action(columns[made.selectedIndex]) },
+      columns.map(({ name, meaning }) => element('option', { text: `${name} – ${meaning}` })),
+    );
+    return element('div', { class: 'choosers' }, made);
+  };
+  const plain = table.columns.filter(({ name }) => !name.endsWith('_rate'));
+  let shown = plain[0];
+  const over = smallFigure(
+    `Time history of ${history.periods} mesh periods, computed from the stored state for this page.`,
+    {
+      xLabel: () => 'Mesh periods',
+      yLabel: () => axisLabel(shown),
+      xRange: () => [0, history.periods],
+      range: () => extent(values(shown)),
+      draw: (context, place) => strokeLine(context, place, times, values(shown), { colour: colour() }),
+    },
+  );
+  over.host.append(chooser(plain, 'Quantity of the history', (column) => ((shown = column), over.panel.relabel())));
+  const pairs = table.columns.filter(({ name }) => table.has(`${name}_rate`));
+  let pair = pairs[0];
+  const rate = () => table.byName.get(`${pair.name}_rate`);
+  const portrait = smallFigure('Phase portrait of the same mesh periods; the dots are at the mesh phase 0.', {
+    xLabel: () => axisLabel(pair),
+    yLabel: () => axisLabel(rate()),
+    xRange: () => extent(values(pair)),
+    range: () => extent(values(rate())),
+    draw: (context, place) => {
+      const [xs, ys] = [values(pair), values(rate())];
+      strokeLine(context, place, xs, ys, { colour: colour(), width: 1.2 });
+      for (let k = 0; k < rows; k += history.phases)
+        dot(context, place.x(xs[k]), place.y(ys[k]), 2.6 * place.ratio, theme().mark);
+    },
+  });
+  portrait.host.append(
+    chooser(pairs, 'Quantity of the phase portrait', (column) => {
+      pair = column;
+      portrait.view.full = extent(values(pair));
+      portrait.view.x = [...portrait.view.full];
+      portrait.panel.relabel();
+    }),
+  );
+  return [over.host, portrait.host];
+}
+
+export const shellWord = (text) => (/^[A-Za-z0-9_./+:=@%-]+$/.test(text) ? text : `'${text.replace(/'/g, "'\\''")}'`);
+
+/// Speeds of the point, where known.
+function speedText(table, row) {
+  const parts = [
+    ['sun_speed_rpm', 'sun', 'rpm'],
+    ['carrier_speed_rpm', 'carrier', 'rpm'],
+    ['mesh_frequency_Hz', 'mesh frequency', 'Hz'],
+  ]
+    .filter(([name]) => table.isNumeric(name) && Number.isFinite(table.numbers(name)[row]))
+    .map(([name, words, unit]) => `${words} ${number(table.numbers(name)[row], 6)} ${unit}`);
+  return parts.join(', ');
+}
+
+export function commandLine(text) {
+  const code = element('code', { text });
+  const button = element('button', {
+    type: 'button',
+    class: 'copy',
+    text: 'Copy',
+    onclick: async () => {
+      const range = document.createRange();
+      range.selectNodeContents(code);
+      getSelection().removeAllRanges();
+      getSelection().addRange(range);
+      let copied = false;
+      try {
+        await navigator.clipboard.writeText(text);
+        copied = true;
+      } catch {
+        copied = document.execCommand('copy');
+      }
+      button.textContent = copied ? 'Copied' : 'Selected';
+    },
+  });
+  return element('p', { class: 'command' }, code, ' ', button);
+}
+
+export function pointDetails(diagram, line, row) {
+  const { study, table } = line;
+  const index = table.numbers('point')[row];
+  const value = table.numbers('value')[row];
+  const colour = () => theme().classes[Math.max(0, line.classes[row])];
+  const facts = [['Regime', diagram.regimeWords(line, row)], ...factsOf(table, row)];
+  const made = element(
+    'div',
+    {},
+    element(
+      'h3',
+      {},
+      element('span', { class: `swatch class${Math.max(0, line.classes[row])}` }),
+      `Point ${index}, ${line.direction}`,
+    ),
+    element(
+      'p',
+      {},
+      rich(
+        `${diagram.parameter.symbol} = ${number(value, 8)}${study.parameter.unit ? ` ${study.parameter.unit}` : ''}`,
+      ),
+      speedText(table, row) ? `; ${speedText(table, row)}.` : '.',
+    ),
+    tableOf(null, facts),
+  );
+  const section = study.table('section');
+  const starts = study.table('section_starts')?.numbers('start');
+  if (section && starts) {
+    const figure = sectionFigure(section, starts[row], starts[row + 1], colour);
+    if (figure) made.append(figure);
+  }
+  made.append(...historyFigures(study, row, colour));
+  const spectrum = spectrumFigure(study, row, colour);
+  if (spectrum) made.append(spectrum);
+  const meshes = meshTables(table, row);
+  if (meshes) made.append(meshes);
+  made.append(
+    element('h4', { text: 'To compute more at this point' }),
+    element('p', { text: 'Long time histories, all forces, multipliers and exponents:' }),
+    commandLine(`epicyclic run --from ${shellWord(`${study.folder}:${index}`)} -o ${shellWord(`point_${index}`)}`),
+    element(
+      'details',
+      {},
+      element('summary', { text: 'All values of this point' }),
+      element('div', { class: 'scroll' }, allValues(table, row)),
+    ),
+  );
+  return made;
+}
+
+export function orbitDetails(diagram, line, row) {
+  const { study, table } = line;
+  const stable = table.numbers('stable')[row] === 1;
+  const made = element(
+    'div',
+    {},
+    element('h3', { text: `Orbit ${table.numbers('index')[row]} of branch ${line.branch}` }),
+    element(
+      'p',
+      {},
+      rich(`${diagram.parameter.symbol} = ${number(table.numbers('value')[row], 8)}`),
+      speedText(table, row) ? `; ${speedText(table, row)}.` : '.',
+    ),
+    tableOf(null, [
+      ['Period', table.numbers('period')[row] === 1 ? '1 mesh period' : `${table.numbers('period')[row]} mesh periods`],
+      [
+        'Stability',
+        stable ? 'stable' : `unstable, ${number(table.numbers('unstable')[row])} multipliers beyond the unit circle`,
+      ],
+      ['Largest multiplier, modulus', valueText(table, 'multiplier_max', row)],
+    ]),
+  );
+  const section = study.table('section');
+  const starts = study.table('section_starts')?.numbers('start');
+  if (section && starts) {
+    const figure = sectionFigure(section, starts[row], starts[row + 1], () => diagram.colour(line, row));
+    if (figure) made.append(figure);
+  }
+  const meshes = meshTables(table, row);
+  if (meshes) made.append(meshes);
+  made.append(
+    element(
+      'details',
+      {},
+      element('summary', { text: 'All values of this orbit' }),
+      element('div', { class: 'scroll' }, allValues(table, row)),
+    ),
+  );
+  return made;
+}
+
+export function specialDetails(diagram, point) {
+  const table = point.study.table('special.csv');
+  const [short, words] = specialName(point.kind);
+  return element(
+    'div',
+    {},
+    element('h3', { text: `${short}: ${words}` }),
+    element(
+      'p',
+      {},
+      rich(`${diagram.parameter.symbol} = ${withError(point.value, table.numbers('error_bound')[point.row])}`),
+      speedText(table, point.row) ? `; ${speedText(table, point.row)}.` : '.',
+    ),
+    element('div', { class: 'scroll' }, allValues(table, point.row)),
+  );
+}
+
+/// Puts what was chosen beside the figure. Screen readers say its heading and its first line, and not all of it.
+export function showDetails(place, made) {
+  const said = ['h3', 'p'].map((tag) => made.querySelector(tag)?.textContent ?? '').join('. ');
+  const status = place.querySelector('[role=status]') ?? element('p', { role: 'status', class: 'unseen' });
+  place.replaceChildren(status, made);
+  status.textContent = said;
+}
+
+/// What stands first of a point: evidence, exponent, multiplier, errors.
+function factsOf(table, row) {
+  const words = [
+    ['evidence', 'Evidence'],
+    ['message', 'Message'],
+    ['lyapunov_max', 'Largest Lyapunov exponent λ_1'],
+    ['multiplier_max', 'Largest Floquet multiplier, modulus'],
+    ['orbit_error', 'Error bound of the orbit'],
+    ['zero_one', 'K of the 0-1 test'],
+    ['classified_periods', 'Integrated to classify'],
+  ];
+  return words
+    .filter(([name]) => table.has(name) && valueText(table, name, row) !== '')
+    .map(([name, text]) => [text, capital(valueText(table, name, row))]);
+}
+
+/// A row of any table: what stands first of it and its meshes, or else everything.
+export function rowDetails(table, row, title, lead) {
+  const facts = factsOf(table, row);
+  const meshes = meshTables(table, row);
+  const all = element('div', { class: 'scroll' }, allValues(table, row));
+  return element(
+    'div',
+    {},
+    element('h3', { text: title }),
+    lead ? element('p', { text: lead }) : null,
+    facts.length > 0 ? tableOf(null, facts) : null,
+    meshes,
+    meshes ? element('details', {}, element('summary', { text: 'All values' }), all) : all,
+  );
+}

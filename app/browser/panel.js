@@ -1,0 +1,357 @@
+// A panel: axes by uPlot, everything between them drawn by its owner; zoom, pan, hover, click.
+/* global uPlot */
+import { theme, onTheme, rgb } from './theme.js';
+import { element, number } from './words.js';
+
+const finite = (range) => range && Number.isFinite(range[0]) && Number.isFinite(range[1]) && range[0] < range[1];
+
+/// [low, high] of numbers, with a margin; something of no numbers, or of one.
+export function rangeOf(low, high, margin) {
+  if (!(low <= high)) return [0, 1];
+  const wide = high - low || Math.abs(high) || 1;
+  return [low - margin * wide, high + margin * wide];
+}
+
+/// A view of the abscissa that panels share.
+export class View {
+  constructor(full) {
+    this.full = full;
+    this.x = [...full];
+    this.panels = [];
+  }
+
+  show(x) {
+    if (!finite(x)) return;
+    const wide = Math.max(x[1] - x[0], 1e-9 * (Math.abs(x[0]) + Math.abs(x[1]) || 1));
+    this.x = [x[0], x[0] + wide];
+    for (const panel of this.panels) panel.redraw();
+  }
+
+  /// @param at  stays where it is
+  zoom(factor, at = 0.5 * (this.x[0] + this.x[1])) {
+    this.show([at + (this.x[0] - at) * factor, at + (this.x[1] - at) * factor]);
+  }
+
+  pan(part) {
+    const step = part * (this.x[1] - this.x[0]);
+    this.show([this.x[0] + step, this.x[1] + step]);
+  }
+
+  reset() {
+    for (const panel of this.panels) panel.y = null;
+    this.show([...this.full]);
+  }
+}
+
+export class Panel {
+  /// @param options  host, view, height, xLabel(), yLabel(), range(x): that of the ordinate, draw(context, place, panel),
+  ///                 hover(place): the text of what is there and whatever pick() takes, pick(found), xAxis, logarithmic
+  constructor(options) {
+    this.options = options;
+    this.view = options.view;
+    this.y = null; // the owner's range
+    this.node = element('div', { class: 'panel' });
+    this.tip = element('div', { class: 'tip', hidden: true });
+    this.node.append(this.tip);
+    options.host.append(this.node);
+    this.view.panels.push(this);
+    this.build();
+    new ResizeObserver(() => this.resize()).observe(this.node);
+    onTheme(() => this.build());
+  }
+
+  build() {
+    this.plot?.destroy();
+    const colours = theme();
+    const axis = (label, size) => ({
+      label,
+      labelSize: 18,
+      size,
+      stroke: colours.ink,
+      font: '12px system-ui, sans-serif',
+      labelFont: '13px system-ui, sans-serif',
+      values: (_, splits) => splits.map((value) => (value === null || value === undefined ? '' : number(value, 12))),
+      grid: { stroke: colours.grid, width: 1 },
+      ticks: { stroke: colours.grid, width: 1, size: 5 },
+    });
+    const { options } = this;
+    this.plot = new uPlot(
+      {
+        width: Math.max(200, this.node.clientWidth || 600),
+        height: options.height(),
+        padding: [8, 14, 0, 0],
+        legend: { show: false },
+        pxAlign: 0,
+        scales: {
+          x: { time: false, range: (_, low, high) => [low, high] },
+          y: { range: (_, low, high) => [low, high], distr: options.logarithmic?.() ? 3 : 1 },
+        },
+        axes: [
+          options.xAxis === false ? { ...axis(undefined, 22), labelSize: 0 } : axis(options.xLabel(), 32),
+          axis(options.yLabel(), 58),
+        ],
+        series: [{}, { paths: () => null, points: { show: false } }],
+        cursor: {
+          drag: { x: true, y: true, uni: 24, setScale: false },
+          points: { show: false },
+          bind: { dblclick: () => () => (this.view.reset(), null) },
+          ...(options.sync ? { sync: { key: options.sync, setSeries: false, scales: ['x', null] } } : {}),
+        },
+        hooks: {
+          draw: [(plot) => this.draw(plot)],
+          setSelect: [(plot) => this.selected(plot)],
+          setCursor: [(plot) => this.hover(plot)],
+        },
+      },
+      [this.view.x, this.yRange()],
+      this.node,
+    );
+    this.listen(this.plot.over);
+    this.redraw();
+  }
+
+  resize() {
+    const width = this.node.clientWidth;
+    if (width > 0 && (width !== this.plot.width || this.options.height() !== this.plot.height))
+      this.plot.setSize({ width, height: this.options.height() });
+  }
+
+  yRange() {
+    const range = this.y ?? this.options.range(this.view.x);
+    return finite(range) ? range : [0, 1];
+  }
+
+  redraw() {
+    const [low, high] = this.yRange();
+    this.plot.batch(() => {
+      this.plot.setScale('x', { min: this.view.x[0], max: this.view.x[1] });
+      this.plot.setScale('y', { min: low, max: high });
+    });
+    this.plot.redraw(false, true);
+  }
+
+  /// Labels of axes and kind of scale are read once.
+  relabel() {
+    this.y = null;
+    this.build();
+  }
+
+  /// Where values are on the canvas, and the canvas' own measures.
+  place(plot = this.plot) {
+    const { left, top, width, height } = plot.bbox;
+    return {
+      left,
+      top,
+      width,
+      height,
+      leftOfPlot: left,
+      topOfPlot: top,
+      ratio: devicePixelRatio || 1,
+      x: (value) => plot.valToPos(value, 'x', true),
+      y: (value) => plot.valToPos(value, 'y', true),
+      xAt: (pixel) => plot.posToVal(pixel, 'x'),
+      yAt: (pixel) => plot.posToVal(pixel, 'y'),
+      xRange: [plot.scales.x.min, plot.scales.x.max],
+      yRange: [plot.scales.y.min, plot.scales.y.max],
+      logarithmic: plot.scales.y.distr === 3,
+    };
+  }
+
+  draw(plot) {
+    if (!Number.isFinite(plot.scales.x.min) || !Number.isFinite(plot.scales.y.min)) return;
+    const place = this.place(plot);
+    const { ctx } = plot;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(place.left, place.top, place.width, place.height);
+    ctx.clip();
+    this.options.draw(ctx, place, this);
+    ctx.restore();
+    ctx.save();
+    ctx.strokeStyle = theme().faint;
+    ctx.lineWidth = place.ratio;
+    ctx.strokeRect(place.left, place.top, place.width, place.height);
+    ctx.restore();
+  }
+
+  selected(plot) {
+    const { left, top, width, height } = plot.select;
+    if (width < 4 && height < 4) return;
+    this.dragged = true;
+    const x = [plot.posToVal(left, 'x'), plot.posToVal(left + width, 'x')];
+    if (height > 4 && height < plot.over.clientHeight - 1)
+      this.y = [plot.posToVal(top + height, 'y'), plot.posToVal(top, 'y')];
+    plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+    if (width > 4 && width < plot.over.clientWidth - 1) this.view.show(x);
+    else this.redraw();
+  }
+
+  hover(plot) {
+    const { left, top } = plot.cursor;
+    const inside = left >= 0 && top >= 0 && plot.over.matches(':hover');
+    const found = inside ? this.options.hover?.({ ...this.place(plot), left, top }) : null;
+    this.found = found;
+    this.tip.hidden = !found;
+    if (!found) return;
+    this.tip.textContent = found.text;
+    const over = plot.over.getBoundingClientRect();
+    const box = this.node.getBoundingClientRect();
+    const x = over.left - box.left + left;
+    const right = x > 0.55 * box.width;
+    this.tip.style.left = right ? 'auto' : `${x + 14}px`;
+    this.tip.style.right = right ? `${box.width - x + 14}px` : 'auto';
+    this.tip.style.top = `${over.top - box.top + Math.max(0, top - 10)}px`;
+  }
+
+  listen(over) {
+    let from = null; // of a pan
+    over.addEventListener('click', () => {
+      if (!this.dragged && this.found) this.options.pick?.(this.found);
+      this.dragged = false;
+    });
+    over.addEventListener(
+      'wheel',
+      (event) => {
+        event.preventDefault();
+        const box = over.getBoundingClientRect();
+        const factor = Math.exp(0.0015 * Math.max(-400, Math.min(400, event.deltaY)));
+        if (event.altKey) {
+          const at = this.plot.posToVal(event.clientY - box.top, 'y');
+          this.y = this.yRange().map((value) => at + (value - at) * factor);
+          this.redraw();
+        } else if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
+          this.view.pan(0.001 * (event.deltaX || event.deltaY));
+        } else {
+          this.view.zoom(factor, this.plot.posToVal(event.clientX - box.left, 'x'));
+        }
+      },
+      { passive: false },
+    );
+    // Pan: shift or the middle button and drag; on a touch screen one finger.
+    const begin = (event) => {
+      if (!(event.pointerType === 'touch' || event.shiftKey || event.button === 1)) return;
+      from = { at: event.clientX, x: [...this.view.x] };
+      over.setPointerCapture(event.pointerId);
+    };
+    over.addEventListener('pointerdown', begin);
+    over.addEventListener(
+      'mousedown',
+      (event) => {
+        if (event.shiftKey || event.button === 1) (event.stopImmediatePropagation(), event.preventDefault());
+      },
+      true,
+    );
+    over.addEventListener('pointermove', (event) => {
+      if (!from) return;
+      const step = ((from.at - event.clientX) / over.clientWidth) * (from.x[1] - from.x[0]);
+      if (Math.abs(from.at - event.clientX) > 3) this.dragged = true;
+      this.view.show(from.x.map((value) => value + step));
+    });
+    for (const end of ['pointerup', 'pointercancel'])
+      over.addEventListener(end, (event) => {
+        if (from && event.pointerType === 'touch' && !this.dragged) {
+          const box = over.getBoundingClientRect();
+          const found = this.options.hover?.({
+            ...this.place(),
+            left: event.clientX - box.left,
+            top: event.clientY - box.top,
+          });
+          if (found) this.options.pick?.(found);
+        }
+        from = null;
+      });
+  }
+}
+
+/// Points in numbers: each pixel is the darker the more points fall on it.
+export class Raster {
+  constructor(place) {
+    this.place = place;
+    this.width = Math.max(1, Math.round(place.width));
+    this.height = Math.max(1, Math.round(place.height));
+    this.count = new Uint16Array(this.width * this.height);
+    this.of = new Uint8Array(this.width * this.height);
+    const [x0, x1] = place.xRange;
+    const [y0, y1] = place.logarithmic ? place.yRange.map(Math.log10) : place.yRange;
+    this.x0 = x0;
+    this.y0 = y0;
+    this.perX = this.width / (x1 - x0);
+    this.perY = this.height / (y1 - y0);
+    this.drawn = 0;
+  }
+
+  add(x, y, colour) {
+    const column = ((x - this.x0) * this.perX) | 0;
+    const row = ((this.place.logarithmic ? Math.log10(y) : y) - this.y0) * this.perY;
+    if (!(row >= 0) || row >= this.height || column < 0 || column >= this.width) return;
+    const at = (this.height - 1 - (row | 0)) * this.width + column;
+    if (this.count[at] < 65535) ++this.count[at];
+    this.of[at] = colour;
+    ++this.drawn;
+  }
+
+  /// @param colours  "#rrggbb" of each
+  paint(context, colours) {
+    let places = 0;
+    for (const n of this.count) if (n > 0) ++places;
+    const size = Math.max(1, Math.round((places < 4000 ? 2.6 : 1.6) * this.place.ratio));
+    const image = new ImageData(this.width, this.height);
+    const parts = colours.map(rgb);
+    const { width, height, count, of } = this;
+    const half = size >> 1;
+    for (let at = 0; at < count.length; ++at) {
+      if (count[at] === 0) continue;
+      const alpha = Math.min(255, 150 + 35 * count[at]);
+      const [r, g, b] = parts[of[at]];
+      const row = (at / width) | 0;
+      const column = at - row * width;
+      for (let i = Math.max(0, row - half); i < Math.min(height, row - half + size); ++i)
+        for (let j = Math.max(0, column - half); j < Math.min(width, column - half + size); ++j) {
+          const byte = 4 * (i * width + j);
+          if (image.data[byte + 3] >= alpha) continue;
+          image.data[byte] = r;
+          image.data[byte + 1] = g;
+          image.data[byte + 2] = b;
+          image.data[byte + 3] = alpha;
+        }
+    }
+    const canvas = new OffscreenCanvas(width, height);
+    canvas.getContext('2d').putImageData(image, 0, 0);
+    context.drawImage(canvas, Math.round(this.place.left), Math.round(this.place.top));
+  }
+}
+
+/// A line through values; a gap where one is not finite.
+export function strokeLine(context, place, xs, ys, { colour, width = 1.4, dash = [] }) {
+  context.save();
+  context.strokeStyle = colour;
+  context.lineWidth = width * place.ratio;
+  context.setLineDash(dash.map((length) => length * place.ratio));
+  context.beginPath();
+  let open = false;
+  for (let i = 0; i < xs.length; ++i) {
+    if (!Number.isFinite(xs[i]) || !Number.isFinite(ys[i])) {
+      open = false;
+      continue;
+    }
+    if (open) context.lineTo(place.x(xs[i]), place.y(ys[i]));
+    else context.moveTo(place.x(xs[i]), place.y(ys[i]));
+    open = true;
+  }
+  context.stroke();
+  context.restore();
+}
+
+export function dot(context, x, y, radius, colour, ring) {
+  context.beginPath();
+  context.arc(x, y, radius, 0, 2 * Math.PI);
+  if (colour) {
+    context.fillStyle = colour;
+    context.fill();
+  }
+  if (ring) {
+    context.strokeStyle = ring;
+    context.lineWidth = Math.max(1, 0.3 * radius);
+    context.stroke();
+  }
+}

@@ -1,0 +1,26 @@
+// What a report has of one study: its tables, the section and the spectra of a sweep, its input and where it came from.
+// Nothing is computed but rates of deflections at the states that are stored.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include <nlohmann/json.hpp>
+
+#include "report_data.hpp"
+
+namespace epicyclic::app {
+
+/// b_c [um]
+[[nodiscard]] double micrometres_per_length_scale();
+
+/// Changes nothing in the folder. A study of points that is not complete is reported as far as it has come.
+/// @param data       takes the columns
+/// @param stop_here  called between points; may throw
+/// @returns the study for the header
+/// @throws InputError when there is no study in it, or nothing of it can be shown yet; DamagedData when its files are
+/// not what they were
+[[nodiscard]] nlohmann::json study_report(const std::filesystem::path& folder, ReportData& data,
+                                          const std::function<void()>& stop_here);
+
+}  // namespace epicyclic::app

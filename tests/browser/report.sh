@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# report.sh EPICYCLIC SOURCE_DIR
+#
+# Pages of `report` in a headless Chromium, as report.mjs reads them. Skipped where Chromium or Node.js is missing.
+set -euo pipefail
+source "$2/tests/cli/common.bash"
+
+chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || skip "no Chromium"
+command -v node >/dev/null || skip "no Node.js"
+source "$2/tests/cli/report_studies.bash"
+
+mkdir pages
+reported() {
+  local name=$1
+  shift
+  "$epicyclic" report "$@" -o "pages/$name.html" >/dev/null 2>stderr || fail "the report $name: $(<stderr)"
+}
+make_studies
+reported sweep sweep
+reported both sweep branches
+reported map map
+reported basins basins
+reported run run
+reported gear gear
+reported unfinished unfinished
+reported hostile hostile
+node "$2/tests/browser/report.mjs" "$chromium" "$work/pages" || fail "the pages"
+finish
