@@ -34,7 +34,7 @@ grep -qF "default-src 'none'; script-src 'sha256-" again.html || fail "no policy
 [ ! -e unfinished/report.html ] || fail "a page at a place that nobody gave"
 
 # Files of others are those that the table of their folder names.
-grep -oE '`(uPlot[^`]*)`.*`([0-9a-f]{64})`' "$2/app/browser/vendor/README.md" | sed -E 's/^`([^`]*)`.*`([0-9a-f]{64})`$/\2  \1/' >hashes
+grep -E '^[0-9a-f]{64}  uPlot' "$2/app/browser/vendor/README.md" >hashes
 [ "$(wc -l <hashes)" = 2 ] || fail "the table of files of others: $(<hashes)"
 (cd "$2/app/browser/vendor" && sha256sum --quiet --check "$work/hashes") || fail "a file of others is another one"
 
