@@ -132,6 +132,8 @@ class Points(unittest.TestCase):
                     lambda: result.near(1, by="regime")):
             with self.assertRaises(ep.ResultError):
                 bad()
+        with self.assertRaisesRegex(ep.ResultError, 'outside of mesh_frequency_ratio|outside of value'):
+            ep.open(RESULTS / "speed").near(17001)
 
     def test_section_has_the_points_of_the_csv_file(self):
         result = ep.open(RESULTS / "speed")

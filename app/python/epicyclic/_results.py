@@ -222,7 +222,8 @@ class Result:
         Raises
         ------
         ResultError
-            If there is no such column, or no point with a finite value.
+            If there is no such column, no point with a finite value, or no point with a value as small
+            or as large, such as for a speed in rpm where the study varies the mesh frequency ratio.
         """
         table = self._table(self._points[0])
         column = self._value_column(by)
@@ -238,6 +239,13 @@ class Result:
             raise ResultError(
                 f"{self.folder}: no point has a known {column}"
                 + ("" if direction is None else f" in direction {direction}")
+            )
+        known = np.unique(values.astype(float)[np.isfinite(distance)])
+        spacing = (known[-1] - known[0]) / max(known.size - 1, 1)
+        if not known[0] - spacing <= value <= known[-1] + spacing:
+            raise ResultError(
+                f"{self.folder}: {value:g} is outside of {column}, which is {known[0]:g} to {known[-1]:g}; "
+                'by="rpm" takes the speed of the sun, by="Hz" the mesh frequency'
             )
         return self.points.iloc[int(np.nanargmin(distance))]
 
