@@ -19,6 +19,7 @@
 #include "core/csv.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
+#include "gear/kinematics.hpp"
 #include "input/aliases.hpp"
 #include "input/derived_study.hpp"
 #include "input/json_source.hpp"
@@ -258,9 +259,12 @@ namespace {
 std::string point_words(const FinishedStudy& from, const studies::PointSummary& r) {
   std::string words = fmt::format("point {}", r.point.index);
   const auto varied = input::varied_parameters(from.input().study);
-  for (std::size_t k = 0; k < varied.size(); ++k)
+  for (std::size_t k = 0; k < varied.size(); ++k) {
     words += fmt::format("{}{} = {}", k == 0 ? fmt::format(" ({}, ", store::direction_word(r.point.direction)) : ", ",
                          varied[k].axis.name, short_text(k == 0 ? r.point.value : r.point.second_value, 9));
+    if (varied[k].axis.name == studies::speed_parameter && std::isfinite(r.meshes.speeds.sun))
+      words += fmt::format(", sun {} rpm", short_text(gear::rpm * r.meshes.speeds.sun, 5));
+  }
   if (!varied.empty()) words += ")";
   return words + ", " +
          (r.outcome == integrate::Outcome::reached ? studies::regime_name(r) : store::status_word(r.outcome));

@@ -24,7 +24,7 @@ for way in up down; do
   row=$([ $way = up ] && echo 1 || echo 4)
   [ "$(code_of "$epicyclic" run --from "sweep:$way=0.889" -o "run_$way" "${brief[@]}")" = 0 ] || fail "run $way: $(<stderr)"
   near "$(value delta_sp_max "run_$way")" "$(value delta_sp_max sweep $row)" 1e-6 || fail "run $way is on another branch"
-  grep -q "point $row ($way, mesh_frequency_ratio = 0.89), period 1" stderr || fail "run $way: where it starts: $(<stderr)"
+  grep -q "point $row ($way, mesh_frequency_ratio = 0.89, sun [0-9.]* rpm), period 1" stderr || fail "run $way: where it starts: $(<stderr)"
   grep -q "coexists there: point $((5 - row)) ($([ $way = up ] && echo down || echo up), " stderr || fail "run $way: the other branch"
   tr '\n' ' ' <"run_$way/summary.md" | grep -q "Start: point $row .*coexists there: point" || fail "run $way: summary.md"
 done
