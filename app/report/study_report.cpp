@@ -210,11 +210,8 @@ class InputList {
         if (key == "origin" && member.is_object()) continue;
         const json* of =
             origins != value.end() && origins->is_object() && origins->contains(key) ? &(*origins)[key] : nullptr;
-        std::string name = key;
-        for (const auto& [from, to] : {std::pair("~", "~0"), std::pair("/", "~1")})
-          for (std::size_t at = name.find(from); at != std::string::npos; at = name.find(from, at + 2))
-            name.replace(at, 1, to);
-        add(member, pointer + "/" + name, general + "/" + name, of);
+        const std::string step = input::pointer_step(key);
+        add(member, pointer + step, general + step, of);
       }
       return;
     }

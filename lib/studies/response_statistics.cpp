@@ -77,9 +77,8 @@ model::StageOutputs outputs_of_deflections(const model::DynamicModel& model, con
 
 int extrema_refinement(const model::DynamicModel& model, int phases) {
   constexpr double samples = 20.0;  // of an oscillation: its peak is known to 1 - cos(pi / 20), 1.2 % of the amplitude
-  constexpr double fastest = 2.0;   // omega / omega_sn of the modes that meshes excite
   constexpr int most = 8192;
-  const double wanted = model.omega > 0.0 ? samples * fastest / model.omega : 0.0;
+  const double wanted = model.omega > 0.0 ? samples * fastest_mode / model.omega : 0.0;
   const int half = static_cast<int>(std::ceil(std::min(wanted, double{most}) / (2.0 * phases)));
   return std::max(least_refinement, 2 * half);
 }
@@ -178,6 +177,10 @@ ResponseStatistics::ResponseStatistics(const model::DynamicModel& model, int pha
     if (phases_.kind[k] == analysis::SampleKind::odd) odd_[group].set(lane, 1.0);
   }
   for (std::vector<double>& profile : profiles_) profile.assign(count_, 0.0);
+  for (std::size_t i = 0; i < rows_.planets; ++i)
+    forces_.insert(forces_.end(), {rows_.sun_planet(i).force(), rows_.ring_planet(i).force(), rows_.planet_bearing(i)});
+  forces_.push_back(rows_.sun_bearing());
+  coarse_.assign(forces_.size(), Numbers(0.0));
 }
 
 void ResponseStatistics::see(std::span<const double> y) {
@@ -194,8 +197,10 @@ void ResponseStatistics::recording(std::size_t group, std::size_t count) {
   if (seen_ == count)
     for (std::size_t row = 0; row < sums_.size(); ++row) {
       const Numbers first(now_[row][0]);
-      sums_[row] = {first, first, first, first, Numbers(0.0), Numbers(0.0)};
+      sums_[row] = {first, first, first, Numbers(0.0), Numbers(0.0)};
     }
+  if (seen_ == count)
+    for (std::size_t k = 0; k < forces_.size(); ++k) coarse_[k] = sums_[forces_[k]].first;
   // A group at the end of a period may not be full: missing members add nothing.
   Numbers one = uniform_[group];
   const auto is_odd = odd_[group] > Numbers(0.0);
@@ -210,8 +215,9 @@ void ResponseStatistics::recording(std::size_t group, std::size_t count) {
     s.squares += beyond * beyond;
     s.least = min(s.least, now_[row]);
     s.largest = max(s.largest, now_[row]);
-    s.coarse = max(s.coarse, select(is_odd, s.coarse, now_[row]));
   }
+  for (std::size_t k = 0; k < forces_.size(); ++k)
+    coarse_[k] = max(coarse_[k], select(is_odd, coarse_[k], now_[forces_[k]]));
   for (std::size_t i = 0; i < rows_.planets; ++i) {
     count_contact(rows_.sun_planet(i), model_.sun_planet_half_gap, one, sun_planet_[i]);
     count_contact(rows_.ring_planet(i), model_.ring_planet_half_gap, one, ring_planet_[i]);
@@ -293,14 +299,10 @@ Course ResponseStatistics::course(std::size_t row, double unit) const {
 double ResponseStatistics::force_error() const {
   if (seen_ == 0) return 0.0;
   double most = 0.0;
-  const auto see = [&](std::size_t row) {
-    const double largest = largest_of(sums_[row].largest);
-    if (largest > 0.0) most = std::max(most, 1.0 - largest_of(sums_[row].coarse) / largest);
-  };
-  for (std::size_t i = 0; i < rows_.planets; ++i)
-    for (const std::size_t row : {rows_.sun_planet(i).force(), rows_.ring_planet(i).force(), rows_.planet_bearing(i)})
-      see(row);
-  see(rows_.sun_bearing());
+  for (std::size_t k = 0; k < forces_.size(); ++k) {
+    const double largest = largest_of(sums_[forces_[k]].largest);
+    if (largest > 0.0) most = std::max(most, 1.0 - largest_of(coarse_[k]) / largest);
+  }
   constexpr double quadratic = 3.0;  // a peak that is missed by e is missed by 4 e at twice the spacing
   return most / quadratic;
 }

@@ -29,6 +29,9 @@
 
 namespace epicyclic::studies {
 
+/// omega / omega_sn of the fastest modes that meshes excite, about.
+inline constexpr double fastest_mode = 2.0;
+
 /// Samples for extrema per sample for means [S-sampling]; at most some 8192 in all.
 /// @param phases  samples for means, per mesh period
 [[nodiscard]] int extrema_refinement(const model::DynamicModel& model, int phases);
@@ -134,7 +137,6 @@ class ResponseStatistics {
   /// Samples of one number, side by side.
   struct Sums {
     Numbers first, least, largest;
-    Numbers coarse;        ///< largest without the odd samples
     Numbers sum, squares;  ///< of what is beyond the first one: it would else be lost in the mean
   };
   /// Of one mesh.
@@ -158,6 +160,8 @@ class ResponseStatistics {
   model::StageOutputs recording_;
   std::vector<Numbers> states_, now_;  ///< of the present group
   std::vector<Sums> sums_;
+  std::vector<std::size_t> forces_;  ///< rows of forces of meshes and bearings
+  std::vector<Numbers> coarse_;      ///< their largest values without the odd samples
   std::vector<Counts> sun_planet_, ring_planet_;
   Numbers spread_{0.0};
   /// Sums over the periods at each phase: of delta_sp_1, delta_rp_1 and the transmission error.

@@ -98,9 +98,8 @@ class Recorder {
 /// about twice omega_sn. Fewer if many periods are drawn with a thin line.
 int portrait_detail(const model::DynamicModel& model, const RunOptions& options, int periods) {
   constexpr double oscillation = 200;
-  constexpr double fastest = 2.0;
   constexpr int most = 50000;  // samples
-  const double wanted = oscillation * std::max(1.0, fastest / model.omega) / options.dense_phases;
+  const double wanted = oscillation * std::max(1.0, fastest_mode / model.omega) / options.dense_phases;
   const int affordable = most / (std::max(1, periods) * options.dense_phases);
   return std::max(1, std::min(static_cast<int>(std::ceil(std::min(wanted, double{most}))), affordable));
 }

@@ -368,16 +368,16 @@ class Summary {
     if (not_converged_ > 0)
       text += fmt::format(
           "- {} periodic, but the record has not converged to the orbit, or is shorter than its period (`converged` is "
-          "0 "
-          "in points.csv). The Poincaré points, means, RMS values and extrema are not those of the orbit. Use a larger "
+          "0 in points.csv). The Poincaré points, means, RMS values and extrema are not those of the orbit. Use a "
+          "larger "
           "/study/transient_periods or \"transient\": \"adaptive\".\n",
           counted(not_converged_, "points are", "point is"));
     if (tensile_ > 0)
       text += fmt::format(
           "- {} a tensile mesh force, of up to {:.3g} times the static mesh force and for up to {:.1f} % of the time "
           "(`tensile_force_sp`, `tensile_force_rp`, `tensile_time_sp` and `tensile_time_rp` in points.csv). Real teeth "
-          "transmit no tension: "
-          "the force is that of the mesh damping. See /model/gap_damping in docs/reference/model_options.md.\n",
+          "transmit no tension: the force is that of the mesh damping. See /model/gap_damping in "
+          "docs/reference/model_options.md.\n",
           counted(tensile_, "points have", "point has"), tensile_force_, 100.0 * tensile_time_);
     if (coarse_ > 0)
       text += fmt::format(
