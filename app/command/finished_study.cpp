@@ -19,13 +19,13 @@
 #include "core/csv.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
-#include "gear/kinematics.hpp"
 #include "input/aliases.hpp"
 #include "input/derived_study.hpp"
 #include "input/json_source.hpp"
 #include "input/study_kind.hpp"
 #include "input/study_model.hpp"
 #include "reports/axis_words.hpp"
+#include "reports/speed_words.hpp"
 #include "session.hpp"
 #include "store/manifest.hpp"
 #include "store/point_columns.hpp"
@@ -263,7 +263,7 @@ std::string point_words(const FinishedStudy& from, const studies::PointSummary& 
     words += fmt::format("{}{} = {}", k == 0 ? fmt::format(" ({}, ", store::direction_word(r.point.direction)) : ", ",
                          varied[k].axis.name, short_text(k == 0 ? r.point.value : r.point.second_value, 9));
     if (varied[k].axis.name == studies::speed_parameter && std::isfinite(r.meshes.speeds.sun))
-      words += fmt::format(", sun {} rpm", short_text(gear::rpm * r.meshes.speeds.sun, 5));
+      words += ", " + reports::sun_speed_words(r.meshes.speeds, 5);
   }
   if (!varied.empty()) words += ")";
   return words + ", " +

@@ -10,13 +10,17 @@
 
 namespace epicyclic::reports {
 
+/// "sun 6000 rpm".
+[[nodiscard]] inline std::string sun_speed_words(const gear::Speeds& speeds, int digits) {
+  return "sun " + short_text(gear::rpm * speeds.sun, digits) + " rpm";
+}
+
 /// "sun 6000 rpm, carrier 1500 rpm, mesh frequency 2025 Hz".
 /// @param mesh_frequency  omega_m [rad/s]
 [[nodiscard]] inline std::string speed_words(const gear::Speeds& speeds, double mesh_frequency) {
   constexpr int digits = 6;
-  return "sun " + short_text(gear::rpm * speeds.sun, digits) + " rpm, carrier " +
-         short_text(gear::rpm * speeds.carrier, digits) + " rpm, mesh frequency " +
-         short_text(mesh_frequency / (2.0 * std::numbers::pi), digits) + " Hz";
+  return sun_speed_words(speeds, digits) + ", carrier " + short_text(gear::rpm * speeds.carrier, digits) +
+         " rpm, mesh frequency " + short_text(mesh_frequency / (2.0 * std::numbers::pi), digits) + " Hz";
 }
 
 /// At a mesh frequency ratio of a stage that moves.
