@@ -26,6 +26,7 @@
 #include "input/study_model.hpp"
 #include "reports/axis_words.hpp"
 #include "reports/speed_words.hpp"
+#include "reports/transient_chaos.hpp"
 #include "session.hpp"
 #include "store/manifest.hpp"
 #include "store/point_columns.hpp"
@@ -237,6 +238,8 @@ std::size_t point_of(const Donor& donor, const FinishedStudy& from) {
     value *= input::ratio_per_unit(*input::find_speed_alias(donor.unit == "Hz" ? "mesh_frequency_Hz" : "sun_speed_rpm"),
                                    from.input().study.stage)
                  .value();
+  } else if (from.input().study.axis_speed && std::abs(value) > std::max(std::abs(axis.from), std::abs(axis.to))) {
+    value /= from.input().study.axis_speed->per_ratio;  // beyond every ratio of the sweep: in the unit of its speeds
   }
   std::optional<studies::GridPoint> nearest;
   for (const studies::GridPoint& p : plan.points)
@@ -294,6 +297,9 @@ std::vector<std::string> other_attractors(const FinishedStudy& from, std::size_t
       line += "; it is another one of these with the planets permuted";
     lines.push_back(std::move(line));
   }
+  const auto is_chaotic = [](const studies::KnownAttractor& a) { return a.regime.starts_with("chaotic"); };
+  if (std::ranges::any_of(known.all, is_chaotic) && !std::ranges::all_of(known.all, is_chaotic))
+    lines.emplace_back(reports::transient_chaos);
   return lines;
 }
 

@@ -113,6 +113,8 @@ int init_command(const Arguments& arguments) {
         "spaced\n",
         drawing.sun_teeth, drawing.ring(), drawing.planets, at);
   }
+  if (drawing.assumed.contains("module_mm")) print("no --module: {:g} mm\n", drawing.module_mm);
+  if (drawing.assumed.contains("count")) print("no --planets: {}\n", drawing.planets);
   if (!drawing.torque_Nm)
     print("no --torque: {:g} N m on the sun, 60 N/mm2 times module and face width on each mesh\n",
           input::torque_Nm(drawing));

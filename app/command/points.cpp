@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -129,13 +130,20 @@ std::string next_command(const Arguments& arguments, const ComputedPoints& all, 
     return fmt::format("{} run --from {} -o {}", program,
                        shell_word(fmt::format("{}:{}", folder, *doubts.first_undecided)),
                        shell_word(fmt::format("{}_point_{}", folder, *doubts.first_undecided)));
-  const bool classifies = studies::has_classification(all.first_model);
-  if (doubts.unconverged > 0 && classifies && study.recording().transient == studies::Transient::fixed &&
-      study.recording().classification_periods > 0) {
+  const auto same_study_with = [&](std::initializer_list<const char*> sets, const char* suffix) {
     std::string command = fmt::format("{} {} {}", program, study.kind(), shell_word(arguments.input.string()));
     for (const std::string& set : arguments.sets) command += " --set " + shell_word(set);
-    return command + fmt::format(" --set /study/transient=adaptive -o {}", shell_word(folder + "_adaptive"));
-  }
+    for (const char* set : sets) command += fmt::format(" --set {}", set);
+    return command + fmt::format(" -o {}", shell_word(folder + suffix));
+  };
+  const bool classifies = studies::has_classification(all.first_model);
+  if (doubts.unconverged > 0 && classifies && study.recording().transient == studies::Transient::fixed &&
+      study.recording().classification_periods > 0)
+    return same_study_with({"/study/transient=adaptive"}, "_adaptive");
+  // Tension comes from the damping across the open gap; without it the exact clearance has no tangents.
+  if (doubts.tensile > 0 && all.input.resolved.at("model").at("gap_damping") == "always")
+    return same_study_with({"/model/gap_damping=contact_slope", "/integrator/clearance_smoothing=0.01"},
+                           "_contact_slope");
   if (study.kind() != "sweep" || doubts.periodic == 0 || !classifies) return {};
   const nlohmann::json& sweep = all.input.resolved.at("study");
   if (sweep.at("from") == sweep.at("to")) return {};

@@ -109,6 +109,10 @@ std::vector<StageColumn> stage_columns() {
       Number([](const StageRecord& r) { return StageRecord::tension_time(r.sun_planet); }));
   add(all, "tensile_time_rp", "part of the time", "longest time with tensile force in a ring mesh",
       Number([](const StageRecord& r) { return StageRecord::tension_time(r.ring_planet); }));
+  for (const Kind& kind : kinds)
+    add(all, std::string("loss_time_") + kind.suffix, "part of the time",
+        std::string("longest time out of contact of any ") + kind.name + " mesh",
+        Number([meshes = kind.meshes](const StageRecord& r) { return StageRecord::loss_time(r.*meshes); }));
   for (const Kind& kind : kinds) {
     const std::string what = std::string("delta_") + kind.suffix;
     const std::string meaning = "the deflection of " + mesh_words(kind, 0);
@@ -138,6 +142,8 @@ std::vector<StageColumn> stage_columns() {
         std::string("mesh load factor K_γ of the ") + kind.name +
             " meshes: largest quasi-static force of any over the mean of all",
         Number([meshes = kind.meshes](const StageRecord& r) { return StageRecord::k_gamma(r.*meshes); }));
+  add(all, "force_bearing_max", "N", "largest force of any planet's bearing",
+      Number([](const StageRecord& r) { return r.largest_bearing_force(); }));
   add_force(all, "force_sun_bearing", "the force of the sun's bearing (damping in the clearance included)",
             [](const StageRecord& r) -> const Course& { return r.sun_bearing; });
   add(all, "force_max_error", "1",

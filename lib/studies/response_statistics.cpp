@@ -110,10 +110,10 @@ double StageRecord::share(const std::vector<MeshRecord>& meshes, double Course::
   return static_cast<double>(meshes.size()) * meshes[planet].force.*of / sum;
 }
 
-double StageRecord::largest_share() const {
+double StageRecord::largest_share(double Course::*of) const {
   double most = 0.0;
   for (const auto* meshes : {&sun_planet, &ring_planet})
-    for (std::size_t i = 0; i < meshes->size(); ++i) most = std::max(most, share(*meshes, &Course::mean, i));
+    for (std::size_t i = 0; i < meshes->size(); ++i) most = std::max(most, share(*meshes, of, i));
   return most;
 }
 
@@ -154,6 +154,12 @@ double StageRecord::tension(const std::vector<MeshRecord>& meshes) { return larg
 
 double StageRecord::tension_time(const std::vector<MeshRecord>& meshes) {
   return largest(meshes, &MeshRecord::tension_time);
+}
+
+double StageRecord::loss_time(const std::vector<MeshRecord>& meshes) { return largest(meshes, &MeshRecord::loss); }
+
+double StageRecord::largest_bearing_force() const {
+  return planet_bearing.empty() ? 0.0 : std::ranges::max(planet_bearing, {}, &Course::largest).largest;
 }
 
 ResponseStatistics::ResponseStatistics(const model::DynamicModel& model, int phases, bool keeps_signal)

@@ -94,8 +94,8 @@ struct StageRecord {
   /// [S-share] of planets' meshes of one kind, by a number of each.
   /// @returns not a number of forces without a sum
   [[nodiscard]] static double share(const std::vector<MeshRecord>& meshes, double Course::*of, std::size_t planet);
-  /// The largest share of the mean load that a planet has on any of its meshes.
-  [[nodiscard]] double largest_share() const;
+  /// The largest share that a planet has on any of its meshes, of the mean forces or of the largest ones [S-share].
+  [[nodiscard]] double largest_share(double Course::*of = &Course::mean) const;
   /// The largest force of any of them over the static one [S-force].
   [[nodiscard]] double dynamic_factor(const std::vector<MeshRecord>& meshes) const;
   /// K_v of the one with the largest force [S-kv].
@@ -105,6 +105,10 @@ struct StageRecord {
   /// Largest tension of any of them, and the largest part of the time with tension in one of them.
   [[nodiscard]] static double tension(const std::vector<MeshRecord>& meshes);
   [[nodiscard]] static double tension_time(const std::vector<MeshRecord>& meshes);
+  /// Largest part of the time that one of them is out of contact.
+  [[nodiscard]] static double loss_time(const std::vector<MeshRecord>& meshes);
+  /// Largest force of a planet's bearing [N].
+  [[nodiscard]] double largest_bearing_force() const;
 };
 
 /// Forces of the sun meshes, then of the ring meshes, over a mesh period of the quasi-static solution [N].

@@ -30,7 +30,7 @@
 namespace epicyclic::studies {
 
 /// Raised when a change makes the same input give other numbers: results of two versions are never mixed in one folder.
-inline constexpr int numerics_version = 24;
+inline constexpr int numerics_version = 25;
 
 /// Mesh periods of a stretch of the spectra of points, and up to how many times the mesh frequency they are kept.
 inline constexpr int spectrum_periods = 32;

@@ -9,11 +9,13 @@
 #include <numbers>
 
 #include "analysis/lyapunov.hpp"
+#include "analysis/poincare.hpp"
 #include "core/fit.hpp"
 #include "core/largest_difference.hpp"
 #include "integrate/make_flow.hpp"
 #include "studies/converged_orbit.hpp"
 #include "studies/parallel_for.hpp"
+#include "studies/response_statistics.hpp"
 
 namespace epicyclic::studies {
 
@@ -60,18 +62,16 @@ integrate::Evolution advance(integrate::Flow& flow, std::vector<double>& y, int 
   return e;
 }
 
-/// The reported quantities of n periods from y, at the output phases.
+/// The reported quantities of n periods from y.
+/// @param phases  of a period at which they are taken
 Quantities quantities_of(integrate::Flow& flow, const model::DynamicModel& model, std::vector<double> y, int n,
-                         int phases) {
+                         const std::vector<double>& phases) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Quantities q = {infinity, -infinity, infinity, -infinity};
-  std::vector<double> samples;
-  for (int j = 1; j < phases; ++j) samples.push_back(period * j / phases);
-  samples.push_back(period);
   model::MeshDeflections d;
   flow.forget();
   for (int k = 0; k < n; ++k) {
-    const auto e = flow.evolve(y, 0.0, period, samples, [&](std::size_t, double s, std::span<const double> at) {
+    const auto e = flow.evolve(y, 0.0, period, phases, [&](std::size_t, double s, std::span<const double> at) {
       model.deflections(s, at.data(), d);
       q[0] = std::min(q[0], d.sun_planet[0]);
       q[1] = std::max(q[1], d.sun_planet[0]);
@@ -133,7 +133,8 @@ class PointStudy {
         model_at_(model_at),
         threads_(threads),
         stop_(stop),
-        model_(model_at(out.point.value, study_smoothing)) {}
+        model_(model_at(out.point.value, study_smoothing)),
+        phases_(recorded_phases(1)) {}
 
   void run() {
     if (out_.study.outcome != integrate::Outcome::reached) {
@@ -172,6 +173,12 @@ class PointStudy {
                 tolerance * integrator_.absolute_tolerance / integrator_.relative_tolerance);
   }
 
+  /// Those at which the study records, with `times` as many between two of its uniform ones.
+  [[nodiscard]] std::vector<double> recorded_phases(int times) const {
+    const int uniform = recording_.output_phases;
+    return analysis::RecordingPhases(model_, uniform, times * extrema_refinement(model_, uniform)).s;
+  }
+
   bool find_reference() {
     const auto reference = flow(reference_options(reference_method), model_);
     ConvergedOrbit converged = converged_orbit(*reference, out_.study);
@@ -183,16 +190,14 @@ class PointStudy {
     out_.largest_multiplier = converged.largest_multiplier;
     out_.orbit = known_.state;
     out_.reference_residual = *std::min_element(known_.residuals.begin(), known_.residuals.end());
-    out_.reference = quantities_of(*reference, model_, known_.state, n, recording_.output_phases);
-    const Quantities finer =
-        quantities_of(*reference, model_, known_.state, n, finer_phases * recording_.output_phases);
+    out_.reference = quantities_of(*reference, model_, known_.state, n, phases_);
+    const Quantities finer = quantities_of(*reference, model_, known_.state, n, recorded_phases(finer_phases));
     for (std::size_t k = 0; k < finer.size(); ++k) out_.between_phases[k] = finer[k] - out_.reference[k];
     end_ = known_.state;
     (void)advance(*reference, end_, n);
     const auto second = flow(reference_options(second_method), model_);
     const std::vector<double> other = analysis::displaced_orbit(*second, known_, n, 2);
-    const Quantities again =
-        other.empty() ? all_nan() : quantities_of(*second, model_, other, n, recording_.output_phases);
+    const Quantities again = other.empty() ? all_nan() : quantities_of(*second, model_, other, n, phases_);
     for (std::size_t k = 0; k < again.size(); ++k) out_.reference_error[k] = std::abs(again[k] - out_.reference[k]);
     if (model_.with_halved_tables) measure_tables();
     return true;
@@ -202,8 +207,7 @@ class PointStudy {
     const model::DynamicModel halved = model_.with_halved_tables();
     const auto reference = flow(reference_options(reference_method), halved);
     const std::vector<double> moved = analysis::displaced_orbit(*reference, known_, out_.period, 2);
-    const Quantities there =
-        moved.empty() ? all_nan() : quantities_of(*reference, halved, moved, out_.period, recording_.output_phases);
+    const Quantities there = moved.empty() ? all_nan() : quantities_of(*reference, halved, moved, out_.period, phases_);
     for (std::size_t k = 0; k < there.size(); ++k) out_.table_error[k] = std::abs(there[k] - out_.reference[k]);
     out_.table_displacement = moved.empty() ? nan : largest_difference(moved, known_.state);
   }
@@ -237,7 +241,7 @@ class PointStudy {
       constexpr double another_orbit = 1.0;
       if (!(distance < another_orbit)) return;
       step.orbit_error = distance;
-      step.quantities = quantities_of(*own, model_, orbit, out_.period, recording_.output_phases);
+      step.quantities = quantities_of(*own, model_, orbit, out_.period, phases_);
     });
   }
 
@@ -270,7 +274,7 @@ class PointStudy {
       if (!orbit.found()) return;
       step.found = true;
       step.distance = largest_difference(orbit.state, exact);
-      step.quantities = quantities_of(*tight, model, orbit.state, out_.period, recording_.output_phases);
+      step.quantities = quantities_of(*tight, model, orbit.state, out_.period, phases_);
       const auto own = flow(integrator_, model);
       std::vector<double> y = orbit.state;
       (void)advance(*own, y, out_.period);
@@ -333,6 +337,7 @@ class PointStudy {
   int threads_;
   const std::atomic<bool>* stop_;
   model::DynamicModel model_;
+  std::vector<double> phases_;  ///< of a mesh period at which the study records
   analysis::PeriodicOrbit known_;
   std::vector<double> end_;  ///< of the reference after one orbit: y* up to the shooting's residual
 };

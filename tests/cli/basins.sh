@@ -36,7 +36,7 @@ grep -q '^1,periodic,1,6,1,' base/attractors.csv || fail "with a base: $(cut -c1
 cmp -s t1/points.csv base/points.csv && fail "the base must move the starts"
 
 # Killed again and again: the same bytes.
-killed_until_done 100 "$epicyclic" basins "$inputs/tang2020_basins.json" "${small[@]}" -o cut --threads 2
+killed_until_done cut 100 "$epicyclic" basins "$inputs/tang2020_basins.json" "${small[@]}" -o cut --threads 2
 same_results t1 cut
 
 refused() {

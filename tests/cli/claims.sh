@@ -176,7 +176,7 @@ for method in differential_evolution covariance_adaptation; do
   [ "$(code_of "$epicyclic" "${by[@]}" -o cut_output)" = 0 ] || fail "$method, a missing table: $(<stderr)"
   cmp -s cut/profile.csv cut_output/profile.csv || fail "$method: a missing table is made otherwise"
   rm -r cut_output
-  killed_until_done "$(or_if_slow 300 3000)" "$epicyclic" "${by[@]}" -o "killed_$method"
+  killed_until_done "killed_$method" 600 "$epicyclic" "${by[@]}" -o "killed_$method"
   same_folder cut "killed_$method"
 done
 

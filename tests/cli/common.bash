@@ -150,26 +150,29 @@ same_folder() {
   grep -q '"state": "complete"' "$2/run.json" || fail "$2: run.json does not say complete"
 }
 
-# Kills a study again and again, later each time, at first by $1 milliseconds, until it ends by itself. By a quarter in
-# the end, so that slow builds end too.
+# Kills a study that writes into folder $1 again and again until it ends by itself: each time within $2 milliseconds after
+# its journals have grown, so that each session keeps something, however slow the build or the machine is.
 killed_until_done() {
-  local step=$1 code ms kills=0
-  shift
-  for ((ms = step; ms < 1000 * step; ms += ms < 12 * step ? step : ms / 4)); do
+  local folder=$1 within=$2 code kills=0 before pid
+  shift 2
+  for ((; kills < 1000; ++kills)); do
+    before=$(journal_bytes "$folder")
+    "$@" >stdout 2>stderr </dev/null &
+    pid=$!
+    while [ "$(journal_bytes "$folder")" -le "$before" ] && kill -0 $pid 2>/dev/null; do sleep 0.02; done
+    sleep "$(moment "$within")"
+    kill -KILL $pid 2>/dev/null || true
     code=0
-    timeout -s KILL "$(printf '%d.%03d' $((ms / 1000)) $((ms % 1000)))" "$@" >stdout 2>stderr </dev/null || code=$?
+    { wait $pid || code=$?; } 2>/dev/null
     [ "$code" != 0 ] || break
-    # timeout kills itself, too, and does not wait: what it has killed may still hold its folder.
-    if [ "$code" = 4 ] && grep -q 'in use by another process' stderr; then
-      sleep 0.1
-      continue
-    fi
     [ "$code" = 137 ] || fail "killed, it ended with $code: $(<stderr)"
-    kills=$((kills + 1))
   done
   [ "$code" = 0 ] || fail "not done after $kills kills"
   [ "$kills" -gt 0 ] || fail "no run was killed"
 }
+
+# Size of all journals in a folder.
+journal_bytes() { { find "$1" -name 'journal*' -printf '%s\n' 2>/dev/null || true; } | awk '{ sum += $1 } END { print sum + 0 }'; }
 
 # A random moment in seconds, up to $1 milliseconds.
 moment() {

@@ -28,6 +28,11 @@ awk -F, '$1 == 0 && $2 == "flip" { exit !($4 > 0 && $4 < 1e-6) }' whole/special.
 awk -F, '$1 == 1 && $2 == 3 { stable = $5 } END { exit !stable }' whole/branch.csv || fail "the doubled orbits are not stable"
 awk -F, '$1 == 0 && $3 == 2.2 && $5 == 1 { found = 1 } END { exit !found }' whole/branch.csv || fail "no orbit at the end"
 
+# Speeds of a special point are those of its value, to rounding: all of them have one ratio to it.
+awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+  { ratio = $at["sun_speed_rpm"] / $at["value"]; if (NR > 2 && (ratio / first - 1) ^ 2 > 1e-28) exit 1; if (NR == 2) first = ratio }
+  END { if (NR < 3) exit 1 }' whole/special.csv || fail "speeds of special points are not those of their values"
+
 # Complete; another study.
 [ "$(code_of branches -o whole --threads 1)" = 0 ] || fail "a complete folder must give exit 0: $(<stderr)"
 grep -q 'complete already' stderr || fail "a complete folder is said to be so: $(<stderr)"
@@ -65,10 +70,10 @@ grep -q 'about .* left if no more branches are found' stderr || fail "how long i
 [ "$(code_of "$epicyclic" continue slow/branches.json -o growing)" = 0 ] || fail "resumed: $(<stderr)"
 [ -z "$(comm -23 <(cut -d, -f3- branch.csv | sort) <(cut -d, -f3- growing/branch.csv | sort))" ] || fail "rows of the partial table are not in the last one"
 
-# A sweep over the flip, its proof by branches that are killed again and again, a little later each time, and seeds of it.
+# A sweep over the flip, its proof by branches that are killed again and again, and seeds of it.
 sweep=(--set /study/from=2.1 --set /study/to=2.2 --set /study/points=6 --set /study/transient_periods=400)
 [ "$(code_of "$epicyclic" sweep "${speeds[@]}" "${sweep[@]}" -o sweep)" = 0 ] || fail "sweep: $(<stderr)"
-PICTURE_TAKES=0.1 killed_until_done 600 "$epicyclic" continue "$study" "${small[@]}" -o proved --against sweep
+PICTURE_TAKES=0.1 killed_until_done proved 600 "$epicyclic" continue "$study" "${small[@]}" -o proved --against sweep
 [ "$(wc -l <proved/proof.csv)" = 3 ] || fail "one change each way: $(<proved/proof.csv)"
 [ "$(cut -d, -f7,8,11,12,15 proved/proof.csv | sed -n 2p)" = 'period 2,period 1,1,bifurcation,flip' ] ||
   fail "the change: $(sed -n 2p proved/proof.csv)"
@@ -110,7 +115,7 @@ awk -F, -v flip="$flip" '$5 > 0.05 - 1e-9 && $5 < 0.05 + 1e-9 { found = $4 - fli
   fail "the locus does not begin at the flip"
 is_drawn loci/figures/loci
 if [ "${WHOLE:-no}" = yes ]; then
-  killed_until_done 4000 "$epicyclic" continue "$study" "${small[@]}" "${loci[@]}" -o loci_cut
+  killed_until_done loci_cut 4000 "$epicyclic" continue "$study" "${small[@]}" "${loci[@]}" -o loci_cut
   cmp -s loci/loci.csv loci_cut/loci.csv || fail "loci differ after kills"
 fi
 

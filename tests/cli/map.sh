@@ -41,8 +41,8 @@ done
 grep -q '"points": 24' stdout || fail "the summary as JSON: $(<stdout)"
 cmp -s $whole/points.csv resolved/points.csv || fail "the resolved input gives other cells"
 
-# Killed again and again, a little later each time: the same bytes.
-killed_until_done 200 "$epicyclic" map "$inputs/tang2020_map.json" "${small[@]}" -o cut --threads 2
+# Killed again and again: the same bytes.
+killed_until_done cut 200 "$epicyclic" map "$inputs/tang2020_map.json" "${small[@]}" -o cut --threads 2
 same_results $whole cut
 
 # Two pointers, and failed cells.

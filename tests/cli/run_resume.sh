@@ -42,7 +42,7 @@ for regime in periodic chaotic; do
     same_folder $regime $folder
   done
 
-  killed_until_done "$(or_if_slow 400 3000)" "${command[@]}" --threads 2 -o $regime.killed
+  killed_until_done "$regime.killed" 400 "${command[@]}" --threads 2 -o $regime.killed
   same_folder $regime $regime.killed
 done
 

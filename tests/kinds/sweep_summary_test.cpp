@@ -63,7 +63,32 @@ TEST(SweepSummary, TellsWindows) {
       told(sweep({{1, 0}, {1, 0}, {1, 0}, {2, 0}, {0, 0}}, {{1, 0}, {1, 0}, {1, 0}, {1, 0}, {0, 0}})).text;
   EXPECT_NE(text.find("| up | period 1 | 1 | 3 | 3 |"), std::string::npos) << text;
   EXPECT_NE(text.find("| down | period 1 | 1 | 4 | 4 |"), std::string::npos) << text;
-  EXPECT_NE(text.find("3 points lie between the windows"), std::string::npos) << text;
+  EXPECT_NE(text.find("3 points lie between the windows, alone or in pairs: 4 (up, period 2), 5 (up, chaotic), 5 "
+                      "(down, chaotic)."),
+            std::string::npos)
+      << text;
+}
+
+TEST(SweepSummary, HasTheRangesOfContactLoss) {
+  std::vector<PointResult> points = sweep({{1, 0}, {1, 0}, {1, 0}}, {{1, 0}, {1, 0}, {1, 0}});
+  for (PointResult& p : points)
+    for (auto* meshes : {&p.meshes.sun_planet, &p.meshes.ring_planet}) (*meshes)[0].drive = 1.0, (*meshes)[0].back = 0.0;
+  EXPECT_NE(told(points).text.find("No mesh loses contact"), std::string::npos);
+  points[1].meshes.ring_planet[0].drive = 0.9;
+  points[2].meshes.ring_planet[0].drive = 0.8;
+  points[3].meshes.sun_planet[0].back = 0.0;  // down at 3
+  points[3].meshes.sun_planet[0].drive = 0.5;
+  const std::string text = told(points).text;
+  EXPECT_NE(text.find("| ring-planet | up | 2 | 3 | 2 |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| sun-planet | down | 3 | 3 | 1 |"), std::string::npos) << text;
+}
+
+TEST(SweepSummary, ChaosBesideAnOrbitMayBeATransient) {
+  const SweepSummary s = told(sweep({{1, 0}, {1, 0}, {1, 0}}, {{1, 0}, {0, 0}, {2, 0}}));
+  EXPECT_EQ(s.lines.front(),
+            "two attractors coexist at 2 of 3 values: 2 to 3; at 1 of these one is chaotic and may be a long transient");
+  EXPECT_EQ(s.numbers["unlike"]["one_chaotic"], 1);
+  EXPECT_NE(s.text.find("/study/classification_periods"), std::string::npos) << s.text;
 }
 
 TEST(SweepSummary, TellsWhereTwoMotionsStandSideBySide) {

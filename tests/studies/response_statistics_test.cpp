@@ -197,6 +197,18 @@ TEST(ResponseStatistics, TellsTheForcesOfAStageOneByOne) {
   }
   EXPECT_NEAR(shares, 3.0, rounding * 10.0);
   EXPECT_NEAR(largest_shares, 3.0, rounding * 10.0);
+  double most = 0.0;
+  double share = 0.0;
+  double lost = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    most = std::max(most, r.planet_bearing[i].largest);
+    lost = std::max(lost, r.ring_planet[i].loss());
+    for (const auto* meshes : {&r.sun_planet, &r.ring_planet})
+      share = std::max(share, StageRecord::share(*meshes, &Course::largest, i));
+  }
+  EXPECT_EQ(r.largest_bearing_force(), most);
+  EXPECT_EQ(r.largest_share(&Course::largest), share);
+  EXPECT_EQ(StageRecord::loss_time(r.ring_planet), lost);
   EXPECT_NEAR(StageRecord::share(r.sun_planet, &Course::mean, 1) / StageRecord::share(r.sun_planet, &Course::mean, 0),
               r.sun_planet[1].force.mean / r.sun_planet[0].force.mean, rounding * 1e3);
 }

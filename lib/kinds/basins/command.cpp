@@ -1,5 +1,6 @@
 // epicyclic basins: the attractors that trajectories from a plane of initial states reach.
 
+#include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "kind_commands.hpp"
 #include "kinds/basins/output.hpp"
 #include "points.hpp"
+#include "reports/transient_chaos.hpp"
 #include "studies/plane.hpp"
 
 namespace epicyclic::app {
@@ -47,6 +49,9 @@ WrittenPoints write_basins(const ComputedPoints& plane) {
     written.summary["attractors"].push_back(std::move(one));
     written.lines.push_back(std::move(line));
   }
+  const auto is_chaotic = [](const analysis::Attractor& a) { return a.record.regime == analysis::Regime::chaotic; };
+  if (std::ranges::any_of(attractors.all, is_chaotic) && attractors.all.size() > 1)
+    written.lines.emplace_back(reports::transient_chaos);
   if (classified < results.size())
     written.lines.push_back(fmt::format("no attractor known: {} cells", results.size() - classified));
   return written;

@@ -156,6 +156,8 @@ class OrbitRows {
     return known->second;
   }
 
+  [[nodiscard]] model::DynamicModel model(double value) const { return models_(value); }
+
  private:
   const studies::ModelAt& models_;
   int phases_;
@@ -179,8 +181,10 @@ void add_rows(TracedBranches& traced, OrbitRows& known, const model::DynamicMode
   for (studies::SpecialRow& r : traced.special) {
     const analysis::Branch& branch = traced.branches[r.branch];
     traced.at_special.push_back(row(branch, branch.special[r.point].orbit));
-    r.mesh_frequency = traced.at_special.back().meshes.mesh_frequency;
-    r.speeds = traced.at_special.back().meshes.speeds;
+    // At the value itself, which is located more closely than the orbit that was found next to it.
+    const model::DynamicModel there = known.model(std::isfinite(r.value) ? r.value : traced.at_special.back().value);
+    r.mesh_frequency = there.omega * there.scales.omega_sn;
+    r.speeds = there.speeds;
   }
 }
 

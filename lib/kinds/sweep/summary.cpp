@@ -1,6 +1,7 @@
 #include "kinds/sweep/summary.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -17,6 +18,7 @@
 #include "gear/kinematics.hpp"
 #include "reports/axis_words.hpp"
 #include "reports/markdown.hpp"
+#include "reports/transient_chaos.hpp"
 #include "store/point_columns.hpp"
 
 namespace epicyclic::kinds {
@@ -41,8 +43,10 @@ struct Place {
   double value = 0;
   std::string regime;  ///< or the status
   bool periodic = false;
-  bool comparable = false;  ///< reached, and converged if periodic
-  bool classified = false;  ///< whether the regime is known, by more than recurrence
+  bool chaotic = false;
+  bool comparable = false;              ///< reached, and converged if periodic
+  bool classified = false;              ///< whether the regime is known, by more than recurrence
+  std::array<bool, 2> loses_contact{};  ///< any of the sun meshes, of the ring meshes
   double sun_range = 0;
   std::vector<double> orbit{};  ///< a state of it at the section, if it is periodic by evidence
   std::size_t index = 0;        ///< of the point
@@ -53,10 +57,13 @@ Place place_of(const PointSummary& r) {
   p.value = r.point.value;
   p.regime = reached(r) ? regime_name(r) : store::status_word(r.outcome);
   p.periodic = reached(r) && r.regime == analysis::Regime::periodic;
+  p.chaotic = reached(r) && r.regime == analysis::Regime::chaotic;
   p.comparable = reached(r) && !r.is_unconverged();
   p.classified = reached(r) && r.classified && r.regime != analysis::Regime::undecided;
   if (p.comparable) {
     p.sun_range = r.meshes.sun_planet.front().delta.range();
+    p.loses_contact = {studies::StageRecord::loss_time(r.meshes.sun_planet) > 0.0,
+                       studies::StageRecord::loss_time(r.meshes.ring_planet) > 0.0};
   }
   if (p.periodic) p.orbit = r.orbit;
   p.index = r.point.index;
@@ -121,12 +128,7 @@ std::vector<Largest> largest_of() {
        [=](const PointSummary& r) {
          return greatest(r.meshes.ring_planet, [&](const auto& m) { return force(m.force); });
        }},
-      {"force of a planet's bearing", "N",
-       [=](const PointSummary& r) {
-         double most = 0.0;
-         for (const Course& c : r.meshes.planet_bearing) most = std::max(most, force(c));
-         return most;
-       }},
+      {"force of a planet's bearing", "N", [](const PointSummary& r) { return r.meshes.largest_bearing_force(); }},
       {"peak to peak of delta_sp_1", "b_c",
        [](const PointSummary& r) { return r.meshes.sun_planet.front().delta.range(); }},
       {"RMS of delta_sp_1", "b_c", [](const PointSummary& r) { return r.meshes.sun_planet.front().delta.rms; }},
@@ -135,11 +137,13 @@ std::vector<Largest> largest_of() {
       {"peak to peak of the transmission error", "b_c",
        [](const PointSummary& r) { return r.meshes.transmission_error.range(); }},
       {"time out of contact, sun mesh", "part of the time",
-       [=](const PointSummary& r) { return greatest(r.meshes.sun_planet, [](const auto& m) { return m.loss(); }); }},
+       [](const PointSummary& r) { return studies::StageRecord::loss_time(r.meshes.sun_planet); }},
       {"time out of contact, ring mesh", "part of the time",
-       [=](const PointSummary& r) { return greatest(r.meshes.ring_planet, [](const auto& m) { return m.loss(); }); }},
-      {"load share of a planet, over the mean of all planets", "1",
+       [](const PointSummary& r) { return studies::StageRecord::loss_time(r.meshes.ring_planet); }},
+      {"mean mesh force of a planet, over the average of the planets", "1",
        [](const PointSummary& r) { return r.meshes.largest_share(); }},
+      {"largest mesh force of a planet, over the average of the planets", "1",
+       [](const PointSummary& r) { return r.meshes.largest_share(&Course::largest); }},
   };
 }
 
@@ -175,6 +179,7 @@ class Summary {
     for (std::size_t w = 0; w < directions_.size(); ++w) s.text += (w == 0 ? ", " : " and ") + word_of(w);
     s.text += failed_ > 0 ? fmt::format("; {} failed.\n", failed_) : std::string(".\n");
     s.text += windows();
+    s.text += contact_loss();
     add_unlike(s);
     add_largest(s);
     add_doubts(s);
@@ -228,14 +233,19 @@ class Summary {
 
   [[nodiscard]] std::string windows() const {
     constexpr std::size_t fewest = 3;
+    constexpr std::size_t listed = 24;
     std::string rows;
     std::size_t between = 0;
+    std::string others;
     for (std::size_t w = 0; w < directions_.size(); ++w) {
       const std::vector<Place>& places = directions_[w];
       for (const Run& run :
            runs(places.size(), [&](std::size_t a, std::size_t b) { return places[a].regime == places[b].regime; })) {
         if (run.count < fewest) {
-          between += run.count;
+          for (std::size_t k = run.first; k < run.first + run.count; ++k)
+            if (++between <= listed)
+              others += fmt::format("{}{} ({}, {})", others.empty() ? "" : ", ", place(places[k].value), word_of(w),
+                                    places[k].regime);
           continue;
         }
         rows += fmt::format("| {} | {} | {} | {} | {} |\n", word_of(w), places[run.first].regime,
@@ -243,11 +253,32 @@ class Summary {
       }
     }
     std::string text = "\n## Windows\n\nEach row is at least three neighbouring points of one regime and period";
-    text += between > 0 ? fmt::format(". {} between the windows, alone or in pairs.\n",
-                                      counted(between, "points lie", "point lies"))
+    if (between > listed) others += fmt::format(" and {} more", between - listed);
+    text += between > 0 ? fmt::format(". {} between the windows, alone or in pairs: {}.\n",
+                                      counted(between, "points lie", "point lies"), others)
                         : std::string(".\n");
     if (rows.empty()) return text;
     return text + "\n| direction | regime | from | to | points |\n|---|---|---|---|---|\n" + rows;
+  }
+
+  /// Ranges of values at which meshes lose contact.
+  [[nodiscard]] std::string contact_loss() const {
+    std::string rows;
+    for (std::size_t mesh = 0; mesh < 2; ++mesh)
+      for (std::size_t w = 0; w < directions_.size(); ++w) {
+        const std::vector<Place>& places = directions_[w];
+        for (const Run& run : runs(places.size(), [&](std::size_t a, std::size_t b) {
+               return places[a].loses_contact[mesh] == places[b].loses_contact[mesh];
+             }))
+          if (places[run.first].loses_contact[mesh])
+            rows +=
+                fmt::format("| {} | {} | {} | {} | {} |\n", mesh == 0 ? "sun-planet" : "ring-planet", word_of(w),
+                            place(places[run.first].value), place(places[run.first + run.count - 1].value), run.count);
+      }
+    if (rows.empty()) return "\n## Contact loss\n\nNo mesh loses contact at a point.\n";
+    return "\n## Contact loss\n\nAt these values a mesh of any planet is out of contact for a part of the time.\n\n"
+           "| mesh | direction | from | to | points |\n|---|---|---|---|---|\n" +
+           rows;
   }
 
   /// Are they known to be two attractors? One of them is then periodic. Records of finite length do not distinguish two
@@ -278,6 +309,7 @@ class Summary {
     const std::vector<Place>& up = directions_[0];
     const std::vector<Place>& down = directions_[1];
     std::size_t values = 0;
+    std::size_t chaotic = 0;
     std::size_t not_compared = 0;
     std::string rows;
     std::vector<std::pair<double, double>> stretches;  // with one pair of attractors or several, next to each other
@@ -295,6 +327,7 @@ class Summary {
         continue;
       }
       values += run.count;
+      if (up[run.first].chaotic || down[run.first].chaotic) chaotic += run.count;
       if (run.first > 0 && unlike[run.first - 1])
         stretches.back().second = up[last].value;
       else
@@ -313,7 +346,7 @@ class Summary {
     const std::string first = word_of(0);
     const std::string second = word_of(1);
     s.text += fmt::format("\n## {} and {}\n\n", first == "up" ? "Up" : "Down", second);
-    s.numbers["unlike"] = {{"values", values}, {"of", up.size()}};
+    s.numbers["unlike"] = {{"values", values}, {"of", up.size()}, {"one_chaotic", chaotic}};
     if (values == 0) {
       s.text += "No value is known at which two attractors coexist";
     } else {
@@ -324,6 +357,11 @@ class Summary {
         list += (k == 0 ? "" : ", ") + range_text(stretches[k].first, stretches[k].second, place_digits, words_);
       if (stretches.size() > most) list += fmt::format(" and {} more", stretches.size() - most);
       s.lines.push_back(fmt::format("two attractors coexist at {} of {} values: {}", values, up.size(), list));
+      if (chaotic > 0) {
+        const std::string where = chaotic == values ? "there" : fmt::format("at {} of these", chaotic);
+        s.text += fmt::format(". One of them is chaotic {}: {}", where, transient_chaos);
+        s.lines.back() += fmt::format("; {} one is chaotic and may be a long transient", where);
+      }
     }
     if (not_compared > 0)
       s.text +=
@@ -376,7 +414,9 @@ class Summary {
       text += fmt::format(
           "- {} a tensile mesh force, of up to {:.3g} times the static mesh force and for up to {:.1f} % of the time "
           "(`tensile_force_sp`, `tensile_force_rp`, `tensile_time_sp` and `tensile_time_rp` in points.csv). Real teeth "
-          "transmit no tension: the force is that of the mesh damping. See /model/gap_damping in "
+          "transmit no tension: the force is that of the mesh damping. Compare with \"gap_damping\": \"contact_slope\" "
+          "in "
+          "/model and \"clearance_smoothing\": 0.01 in /integrator: K_v can differ by a factor of two and more. See "
           "docs/reference/model_options.md.\n",
           counted(tensile_, "points have", "point has"), tensile_force_, 100.0 * tensile_time_);
     if (coarse_ > 0)

@@ -199,10 +199,10 @@ std::string ladder_text(const ToleranceOutput& output, const std::vector<Toleran
 std::string quantities_text(const ToleranceOutput& output, const std::vector<TolerancePoint>& points) {
   std::string text;
   text += fmt::format(
-      "\nReported quantities by {} at relative tolerance {:g}, with error bars [b_c]. They are extrema at {} phases of "
-      "a mesh period. In brackets: by how much they are greater at {} phases. The bars do not include this.\n\n",
-      output.integrator.method, output.integrator.relative_tolerance, output.sweep.sweep.recording.output_phases,
-      studies::finer_phases * output.sweep.sweep.recording.output_phases);
+      "\nReported quantities by {} at relative tolerance {:g}, with error bars [b_c]. They are extrema at the "
+      "phases that the study records: both sides of each jump of the stiffness, and others (/study/output_phases). In "
+      "brackets: by how much they are greater at {} times as many phases. The bars do not include this.\n\n",
+      output.integrator.method, output.integrator.relative_tolerance, studies::finer_phases);
   const AxisWords words = axis_words(output.sweep.sweep.axis.name, output.sweep.speed);
   text += "| point | value | period |";
   for (const char* name : quantity_names) text += fmt::format(" {} |", name);
