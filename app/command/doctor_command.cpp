@@ -143,7 +143,7 @@ void judge_mpi() {
 
 void judge_readers() {
   const std::string browser =
-      installed_program({"xdg-open", "sensible-browser", "firefox", "firefox-esr", "chromium", "google-chrome"});
+      installed_program({"xdg-open", "x-www-browser", "firefox", "firefox-esr", "chromium", "google-chrome"});
   line("browser", browser.empty() ? "missing" : "ok",
        browser.empty() ? "report.html is written; copy it to a machine with a browser" : browser);
   const auto missing = output_of(

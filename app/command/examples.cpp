@@ -35,9 +35,8 @@ constexpr Row rows[] = {
       "/study/second/points=9"}},
     {"basins", {"attractors over a plane of initial states", "epicyclic basins tang2020_basins"}},
     {"basins",
-     {"with fewer cells",
-      "epicyclic basins tang2020_basins -o out/coarse --set /study/first/points=15 "
-      "--set /study/second/points=15"}},
+     {"with fewer cells in one direction",
+      "epicyclic basins tang2020_basins -o out/coarse --set /study/first/points=15"}},
     {"run", {"one operating point", "epicyclic run tang2020_run"}},
     {"run", {"a point of a finished sweep, at 3000 rpm", "epicyclic run --from out/speed:up=3000rpm -o out/point"}},
     {"crosscheck", {"the same points by several methods", "epicyclic crosscheck tang2020_crosscheck"}},

@@ -1,6 +1,7 @@
 # Debian packages by cpack, one for each component of install.cmake and of lib/CMakeLists.txt; app/packages calls it.
 #
 # The same commit gives the same bytes: version and date are the commit's (SOURCE_DATE_EPOCH, which app/packages sets).
+include(GNUInstallDirs)
 set(packages
     program=epicyclic
     development=libepicyclic-dev
@@ -21,6 +22,7 @@ endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME epicyclic)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each component has its own
 set(CPACK_PACKAGE_VENDOR "The epicyclic developers")
 set(CPACK_PACKAGE_VERSION ${version})
 set(CPACK_PACKAGE_CONTACT "${maintainer}")
