@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# fresh.sh FOLDER
+# fresh.sh FOLDER [small]
 #
 # Called by tests/fresh_debian --packages, as root on a fresh Debian 12: installs the packages in FOLDER,
 # computes the main job, and tries what the packages bring. Purged, they leave nothing. Prints sizes and
@@ -14,23 +14,26 @@ files() { find / -xdev \( -path /proc -o -path /dev -o -path /tmp -o -path /root
 apt-get -q update >/dev/null
 apt-get -q install -y --no-install-recommends man-db bash-completion lsb-release >/dev/null
 files >/tmp/before
-size_before=$(du -sxk / 2>/dev/null | cut -f 1)
+size_before=$(du -sxk --exclude=/var / 2>/dev/null | cut -f 1)
 
 # The program alone, as a newcomer installs it.
 cd /tmp
 begun=$(date +%s.%N)
 since() { awk -v a="$begun" -v b="$(date +%s.%N)" 'BEGIN { printf "%.1f", b - a }'; }
-apt-get -q install -y "$folder"/epicyclic_*.deb >/tmp/apt.log 2>&1 || { cat /tmp/apt.log && exit 1; }
-echo "installed after $(since) s, $(($(du -sxk / 2>/dev/null | cut -f 1) - size_before)) kB with all that it needs"
+# "small": without what gnuplot recommends.
+small=()
+[ "${2:-}" != small ] || small=(--no-install-recommends gnuplot-nox fonts-dejavu-core)
+apt-get -q install -y "${small[@]}" "$folder"/epicyclic_*.deb >/tmp/apt.log 2>&1 || { cat /tmp/apt.log && exit 1; }
+echo "installed after $(since) s, $(($(du -sxk --exclude=/var / 2>/dev/null | cut -f 1) - size_before)) kB with all that it needs"
 ! command -v g++ cc >/dev/null || fail "a compiler is there"
-begun_job=$(date +%s.%N)
-epicyclic sweep tang2020_calibrated_speed >/tmp/job.log 2>&1 || { cat /tmp/job.log && fail "the main job ended with $?"; }
-epicyclic report out/tang2020_calibrated_speed >/dev/null 2>&1 || fail "report ended with $?"
+TIMEFORMAT='main job: %R s, of them %U s of the processors'
+time epicyclic sweep tang2020_calibrated_speed >/tmp/job.log 2>&1 || { cat /tmp/job.log && fail "the main job"; }
+epicyclic report out/tang2020_calibrated_speed >/dev/null 2>&1 || fail "report"
 for file in figures/bifurcation_delta_sp.png sweep.md report.html; do
   [ -s out/tang2020_calibrated_speed/$file ] || fail "the main job left no $file"
 done
 echo "figure and report after $(since) s from the beginning of apt, on $(nproc) cores"
-epicyclic doctor || fail "doctor ended with $?"
+epicyclic doctor || fail "doctor"
 
 apt-get -q install -y "$folder"/*.deb >/tmp/apt.log 2>&1 || { cat /tmp/apt.log && exit 1; }
 echo "all packages after $(since) s"
