@@ -44,6 +44,14 @@ bool holds_study(const fs::path& folder) {
   return fs::exists(folder / "run.json", none);
 }
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// The table, if it is a file: others may wait for a writer.
+std::ifstream opened(const fs::path& file) {
+  std::error_code none;
+  return fs::is_regular_file(file, none) ? std::ifstream(file) : std::ifstream();
+}
+
 /// The words that can stand for one that is not complete.
 class Candidates {
  public:
@@ -139,9 +147,10 @@ class Candidates {
     if (name == "FOLDER") return files(Wanted::study);
     if (name == "COMMAND") return commands();
     if (name == "WORD") return words_of_keys();
-    if (name == "INPUT" && reproduces) claims();
     if (name == "INPUT") {
-      if (!reproduces)
+      if (reproduces)
+        claims();
+      else
         for (const InstalledInput& input : installed_inputs()) add(input.name, input.file.string());
       return files(Wanted::json);
     }
@@ -205,10 +214,7 @@ class Candidates {
       std::vector<std::string> parts = split(key.pointer, '/');
       std::string pointer;
       for (std::size_t k = 1; k < parts.size(); ++k) {
-        if (parts[k] == "N")
-          parts[k] = k < typed.size() && !typed[k].empty() && std::isdigit(static_cast<unsigned char>(typed[k][0])) != 0
-                         ? typed[k]
-                         : "0";
+        if (parts[k] == "N") parts[k] = k < typed.size() && !typed[k].empty() && is_digit(typed[k][0]) ? typed[k] : "0";
         pointer += "/" + parts[k];
       }
       if (equals != std::string::npos) {
@@ -244,7 +250,7 @@ class Candidates {
     const std::string folder = word_.substr(0, colon);
     if (colon == std::string::npos || !holds_study(path_of(folder))) return files(Wanted::study, ":");
     const std::string which = word_.substr(colon + 1);
-    std::ifstream table(path_of(folder) / "points.csv");
+    std::ifstream table = opened(path_of(folder) / "points.csv");
     std::string line;
     if (!std::getline(table, line)) return;
     const std::vector<std::string> columns = split(line, ',');
@@ -256,9 +262,10 @@ class Candidates {
     const std::size_t last = std::max({point, direction, value});
     if (last >= columns.size()) return;
     const bool sweep = second >= columns.size();
-    const bool by_index = !which.empty() && std::isdigit(static_cast<unsigned char>(which[0])) != 0;
+    const bool by_index = !which.empty() && is_digit(which[0]);
     std::set<std::string> directions;
-    while (std::getline(table, line)) {
+    constexpr std::size_t most = 8'000'000;  // bytes: a few hundredths of a second
+    for (std::size_t bytes = 0; bytes < most && std::getline(table, line); bytes += line.size()) {
       const std::vector<std::string> cells = split(line, ',');
       if (cells.size() <= last) continue;
       const std::string meaning =
@@ -278,7 +285,7 @@ class Candidates {
     std::set<std::string> names;
     for (const std::string& folder : positionals_)
       for (const char* table : {"points.csv", "poincare.csv", "branch.csv", "history.csv"}) {
-        std::ifstream file(path_of(folder) / table);
+        std::ifstream file = opened(path_of(folder) / table);
         std::string line;
         if (std::getline(file, line))
           for (std::string& name : split(line, ',')) names.insert(std::move(name));

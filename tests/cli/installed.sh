@@ -53,6 +53,7 @@ follows out/tang2020_speed:3 run --from out/tang2020_speed:3
 follows kv_sp plot out/tang2020_speed --quantity kv
 follows doctor help doc
 # Never loud, whatever stands there.
+cp out/tang2020_speed/points.csv out/saved.csv
 printf '\0\n,,,\n"' >out/tang2020_speed/points.csv
 for words in '' 'nothing x' 'sweep --nothing' '--set' 'run --from out/tang2020_speed:up=' 'run --from /nowhere/x' \
   'plot /dev/null --quantity' 'sweep x --set /////=' "help $(printf '\xff')"; do
@@ -60,6 +61,9 @@ for words in '' 'nothing x' 'sweep --nothing' '--set' 'run --from out/tang2020_s
   "$epicyclic" __complete "${list[@]}" '' >candidates 2>words || fail "__complete $words: exit $?"
   [ ! -s words ] || fail "__complete $words says: $(<words)"
 done
+rm by_file/points.csv && mkfifo by_file/points.csv
+timeout 5 "$epicyclic" __complete run --from by_file:up= >candidates || fail "__complete waits for a pipe"
+rm by_file/points.csv && cp out/saved.csv by_file/points.csv
 "$epicyclic" __complete >&- 2>words || fail "__complete without stdout: exit $?"
 
 # Bash splits words at = and :, and gets the rest of them.
