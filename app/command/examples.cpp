@@ -62,6 +62,7 @@ constexpr Row rows[] = {
       "epicyclic plot out/speed -o out/figures --x sun_speed_rpm --quantity force_sp_max --format pdf"}},
     {"report", {"a page of one study", "epicyclic report out/tang2020_speed"}},
     {"report", {"a page of two designs", "epicyclic report out/a out/b -o designs.html"}},
+    {"serve", {"a page that computes what you choose", "epicyclic serve out/tang2020_speed"}},
     {"check", {"is this input valid, how long does it take?", "epicyclic check tang2020_speed"}},
     {"check", {"all keys with their values", "epicyclic check tang2020_speed --json --no-time"}},
     {"keys", {"keys that have to do with backlash", "epicyclic keys backlash"}},
