@@ -73,6 +73,8 @@ int keys_command(const Arguments& arguments);
 int init_command(const Arguments& arguments);
 int gear_command(const Arguments& arguments);
 int check_command(const Arguments& arguments);
+int inputs_command(const Arguments& arguments);
+int doctor_command(const Arguments& arguments);
 
 /// version, commit, dependencies, SIMD in use
 [[nodiscard]] std::string version_text();

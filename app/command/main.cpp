@@ -11,13 +11,17 @@
 
 #include "claims/claims_commands.hpp"
 #include "commands.hpp"
+#include "completion.hpp"
 #include "core/errors.hpp"
 #include "core/instruction_set.hpp"
 #include "core/version.hpp"
+#include "examples.hpp"
 #include "failure.hpp"
 #include "input/field_table.hpp"
 #include "input/study_input.hpp"
+#include "installed_files.hpp"
 #include "kind_commands.hpp"
+#include "man_pages.hpp"
 #include "ranks/ranks.hpp"
 #include "stop.hpp"
 #include "store/versions.hpp"
@@ -194,6 +198,13 @@ void add_word_option(CLI::App& command, Arguments& arguments) {
                      "word in the name or the meaning of a key; with several words: all of them");
 }
 
+void add_help_argument(CLI::App& command, Arguments& arguments) {
+  command.add_option("COMMAND", arguments.words, "name of a command; none: the list of all");
+}
+
+/// Of `help`, which becomes --help.
+int no_command(const Arguments& /*arguments*/) { return bug; }
+
 /// All commands, in the order of --help.
 std::vector<Command> all_commands() {
   std::vector<Command> all = {
@@ -220,7 +231,11 @@ std::vector<Command> all_commands() {
        Takes::input, add_check_options},
       {"keys", "print the keys of the input with unit, default, bounds and meaning; with WORD only those that have it",
        keys_command, Takes::nothing, add_word_option},
+      {"inputs", "list the inputs that come with the program, which INPUT takes by name", inputs_command,
+       Takes::nothing},
       {"schema", "print the JSON Schema of the input", print_schema, Takes::nothing},
+      {"doctor", "state what is missing on this machine and what that means", doctor_command, Takes::nothing},
+      {"help", "print the options of a command, with examples", no_command, Takes::nothing, add_help_argument},
   };
   all.insert(all.end(), others.begin(), others.end());
   return all;
@@ -231,19 +246,49 @@ std::vector<Command> all_commands() {
 CLI::App* add_to(CLI::App& cli, const Command& command, Arguments& arguments) {
   CLI::App* sub = cli.add_subcommand(command.name, command.meaning);
   if (command.takes >= Takes::input) {
-    sub->add_option("INPUT", arguments.input, "study or stage file (JSON)")->required();
+    sub->add_option("INPUT", arguments.input, "study or stage file (JSON), or the name of an installed input")
+        ->required();
     sub->add_option("--set", arguments.sets, "override one value: /json/pointer=value; can be repeated")
         ->take_all()
         ->expected(1)
         ->allow_extra_args(false);
   }
   if (command.takes >= Takes::output) {
-    sub->add_option("-o,--output", arguments.output, "folder for the results")->required();
+    sub->add_option("-o,--output", arguments.output, "folder for the results; default of an installed input: out/NAME");
     sub->add_flag("--json", arguments.json, "print the summary as JSON");
     add_threads(*sub, arguments, "number of threads; the results do not depend on it");
   }
   command.options(*sub, arguments);
+  sub->footer(examples_text(command.name));
   return sub;
+}
+
+/// Replaces the name of an installed input by its file, whose results are in out/NAME if no folder is given.
+void find_input(const Command& command, Arguments& arguments, bool speaks) {
+  if (command.takes != Takes::input && command.takes != Takes::output) return;
+  const bool by_name = command.run != reproduce_command;  // which has names of its own
+  if (const std::filesystem::path file = by_name ? input_file(arguments.input) : arguments.input;
+      file != arguments.input) {
+    if (speaks) print_message("input: {}\n", file.string());
+    arguments.input = file;
+    if (command.takes == Takes::output && arguments.output.empty()) {
+      arguments.output = std::filesystem::path("out") / file.stem();
+      if (speaks) print_message("results: {}\n", arguments.output.string());
+    }
+  }
+  if (command.takes == Takes::output && arguments.output.empty())
+    throw InputError("--output is required: the folder for the results");
+}
+
+/// The words of the command line; `help COMMAND` becomes `COMMAND --help`.
+std::vector<std::string> words_of(int argc, char** argv, const std::vector<Command>& commands) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (words.empty() || words.front() != "help" || words.back() == "--help" || words.back() == "-h") return words;
+  words.erase(words.begin());
+  // An unknown one is refused as a command.
+  if (words.empty() || std::ranges::find(commands, words.front(), &Command::name) != commands.end())
+    words.emplace_back("--help");
+  return words;
 }
 
 int run(int argc, char** argv) {
@@ -260,9 +305,19 @@ int run(int argc, char** argv) {
   const std::vector<Command> commands = all_commands();
   std::vector<CLI::App*> parsers;
   for (const Command& command : commands) parsers.push_back(add_to(cli, command, arguments));
+  std::vector<std::string> words = words_of(argc, argv, commands);
+  if (!words.empty() && words.front() == "__complete") {
+    complete(cli, {words.begin() + 1, words.end()});
+    return done;
+  }
   const int code = guarded(ranks, [&] {
+    if (words.size() == 2 && words.front() == "__man") {
+      write_man_pages(cli, words.back());
+      return int{done};
+    }
     try {
-      cli.parse(argc, argv);
+      std::ranges::reverse(words);  // as CLI11 takes them
+      cli.parse(words);
     } catch (const CLI::ParseError& e) {
       return answer(cli, e, ranks);
     }
@@ -273,6 +328,7 @@ int run(int argc, char** argv) {
     const Command& command = commands.at(static_cast<std::size_t>(parsed));
     if (ranks.size() > 1 && !command.shares_work)
       throw InputError("only sweep, map, basins, calibrate and robustness run on several processes");
+    find_input(command, arguments, ranks.rank() == 0);
     if (command.writes()) stop_on_signals(ranks.size() > 1 ? patience_of_ranks : patience);
     return command.run(arguments);
   });

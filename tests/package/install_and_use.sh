@@ -16,9 +16,14 @@ trap 'rm -rf "$temporary"' EXIT
 
 cmake --install "$build_dir" --prefix "$temporary/prefix" >"$temporary/log"
 for file in share/epicyclic/input.schema.json share/epicyclic/octave/+epicyclic/open.m \
-  lib/python3/dist-packages/epicyclic/__init__.py; do
+  share/bash-completion/completions/epicyclic share/zsh/site-functions/_epicyclic \
+  share/fish/vendor_completions.d/epicyclic.fish lib/python3/dist-packages/epicyclic/__init__.py; do
   [ -s "$temporary/prefix/$file" ] || { echo "FAILED: $file is not installed"; exit 1; }
 done
+[ "$(ls "$temporary"/prefix/share/man/man1/epicyclic-* | wc -l)" -ge 18 ] || { echo "FAILED: man pages"; exit 1; }
+# The installed program finds its inputs below its own prefix.
+(cd "$temporary" && prefix/bin/epicyclic check tang2020_speed --no-time) 2>&1 | tee "$temporary/log"
+grep -q "^input: .*/prefix/share/epicyclic/inputs/tang2020_speed.json$" "$temporary/log" || { echo "FAILED: no input"; exit 1; }
 cmake -G "$generator" -S "$package_dir" -B "$temporary/build" -D CMAKE_PREFIX_PATH="$temporary/prefix" \
   -D CMAKE_CXX_COMPILER="$cxx" -D CMAKE_CXX_FLAGS="$cxx_flags" -D CMAKE_FIND_USE_PACKAGE_REGISTRY=OFF
 cmake --build "$temporary/build"

@@ -20,6 +20,7 @@
 #include "core/errors.hpp"
 #include "finished_study.hpp"
 #include "folder.hpp"
+#include "installed_files.hpp"
 #include "kind_commands.hpp"
 #include "preparation.hpp"
 #include "session.hpp"
@@ -35,14 +36,9 @@ std::filesystem::path claims_file(const std::filesystem::path& named) {
   std::error_code none;
   if (std::filesystem::is_directory(named, none)) return named / "claims.json";
   if (std::filesystem::exists(named, none) || named.has_parent_path() || named.has_extension()) return named;
-  const auto below = [&](const std::filesystem::path& root) { return root / "validation" / named / "claims.json"; };
-  if (std::filesystem::exists(below("."), none)) return below(".");
-  std::filesystem::path at = std::filesystem::read_symlink("/proc/self/exe", none);
-  while (at.has_relative_path()) {
-    at = at.parent_path();
-    for (const auto& root : {at, at / "share" / "epicyclic"})
-      if (std::filesystem::exists(below(root), none)) return below(root);
-  }
+  const std::filesystem::path below = std::filesystem::path("validation") / named / "claims.json";
+  if (std::filesystem::exists("." / below, none)) return "." / below;
+  if (const auto file = installed_file(below)) return *file;
   throw InputError(named.string() + ": neither a file, nor a folder of validation/ here or above the program");
 }
 

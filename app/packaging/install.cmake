@@ -1,0 +1,57 @@
+# What is installed of app/, by components: a component is a Debian package (packages.cmake).
+include(GNUInstallDirs)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
+set(data_dir ${CMAKE_INSTALL_DATADIR}/epicyclic)
+
+install(TARGETS epicyclic RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET epicyclic_mpi)
+  install(TARGETS epicyclic_mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
+endif()
+# The schema for editors, as the program prints it: at the installation, because not every build can run (sanitizers).
+set(schema ${CMAKE_CURRENT_BINARY_DIR}/input.schema.json)
+install(CODE "execute_process(COMMAND \"$<TARGET_FILE:epicyclic>\" schema OUTPUT_FILE \"${schema}\"
+                              COMMAND_ERROR_IS_FATAL ANY)")
+install(FILES ${schema} DESTINATION ${data_dir})
+# Studies and claims by name; claims name their stage as ../../inputs/FILE.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/inputs DESTINATION ${data_dir} FILES_MATCHING PATTERN "*.json")
+file(GLOB claims_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/validation/*/claims.json
+     ${PROJECT_SOURCE_DIR}/validation/*/claims.scorecard.json)
+foreach(file IN LISTS claims_files)
+  cmake_path(GET file PARENT_PATH folder)
+  cmake_path(GET folder FILENAME name)
+  install(FILES ${file} DESTINATION ${data_dir}/validation/${name})
+endforeach()
+install(DIRECTORY octave/+epicyclic DESTINATION ${data_dir}/octave)
+# What reads results: Debian's Python finds this folder if the prefix is /usr.
+install(DIRECTORY python/epicyclic DESTINATION lib/python3/dist-packages COMPONENT python PATTERN __pycache__ EXCLUDE)
+# Completion, where each shell searches by itself.
+install(FILES packaging/completion/epicyclic.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME epicyclic)
+install(FILES packaging/completion/epicyclic.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+set(zsh site-functions)
+if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+  set(zsh vendor-completions) # Debian's
+endif()
+install(FILES packaging/completion/_epicyclic DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${zsh})
+# Manual pages, as the program writes them, compressed if gzip is there.
+find_program(EPICYCLIC_GZIP gzip)
+set(manual ${CMAKE_CURRENT_BINARY_DIR}/man1)
+set(compress "")
+if(EPICYCLIC_GZIP)
+  set(compress "file(GLOB pages \"${manual}/*.1\")
+                execute_process(COMMAND \"${EPICYCLIC_GZIP}\" -9nf \${pages} COMMAND_ERROR_IS_FATAL ANY)")
+endif()
+install(CODE "file(REMOVE_RECURSE \"${manual}\")
+              file(MAKE_DIRECTORY \"${manual}\")
+              execute_process(COMMAND \"$<TARGET_FILE:epicyclic>\" __man \"${manual}\" COMMAND_ERROR_IS_FATAL ANY)
+              ${compress}")
+install(DIRECTORY ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR})
+if(TARGET epicyclic_mpi)
+  set(links ${CMAKE_CURRENT_BINARY_DIR}/mpi)
+  file(MAKE_DIRECTORY ${links})
+  file(CREATE_LINK epicyclic ${links}/epicyclic-mpi SYMBOLIC)
+  install(FILES ${links}/epicyclic-mpi DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT mpi)
+  if(EPICYCLIC_GZIP)
+    file(CREATE_LINK epicyclic.1.gz ${links}/epicyclic-mpi.1.gz SYMBOLIC)
+    install(FILES ${links}/epicyclic-mpi.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT mpi)
+  endif()
+endif()
