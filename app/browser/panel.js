@@ -12,6 +12,14 @@ export function rangeOf(low, high, margin) {
   return [low - margin * wide, high + margin * wide];
 }
 
+const all = new Set();
+onTheme(() => all.forEach((panel) => panel.build()));
+
+/// Gives up the panels that are not on the page any more.
+export function releasePanels() {
+  for (const panel of all) if (!panel.node.isConnected) panel.release();
+}
+
 /// A view of the abscissa that panels share.
 export class View {
   constructor(full) {
@@ -45,7 +53,8 @@ export class View {
 
 export class Panel {
   /// @param options  host, view, height, xLabel(), yLabel(), range(x): that of the ordinate, draw(context, place, panel),
-  ///                 hover(place): the text of what is there and whatever pick() takes, pick(found), xAxis, logarithmic
+  ///                 hover(place): the text of what is there and whatever pick() takes, pick(found), xAxis, logarithmic,
+  ///                 region([from, to]) of the abscissa: a drag with Ctrl
   constructor(options) {
     this.options = options;
     this.view = options.view;
@@ -56,8 +65,15 @@ export class Panel {
     options.host.append(this.node);
     this.view.panels.push(this);
     this.build();
-    new ResizeObserver(() => this.resize()).observe(this.node);
-    onTheme(() => this.build());
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(this.node);
+    all.add(this);
+  }
+
+  release() {
+    all.delete(this);
+    this.observer.disconnect();
+    this.plot.destroy();
   }
 
   build() {
@@ -178,10 +194,17 @@ export class Panel {
     const { left, top, width, height } = plot.select;
     if (width < 4 && height < 4) return;
     this.dragged = true;
+    const before = this.y;
     const x = [plot.posToVal(left, 'x'), plot.posToVal(left + width, 'x')];
     if (height > 4 && height < plot.over.clientHeight - 1)
       this.y = [plot.posToVal(top + height, 'y'), plot.posToVal(top, 'y')];
     plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+    if (this.options.region && this.withControl && width > 4) {
+      this.y = before;
+      this.redraw();
+      this.options.region(x);
+      return;
+    }
     if (width > 4 && width < plot.over.clientWidth - 1) this.view.show(x);
     else this.redraw();
   }
@@ -237,6 +260,7 @@ export class Panel {
     over.addEventListener(
       'mousedown',
       (event) => {
+        this.withControl = event.ctrlKey || event.metaKey;
         if (event.shiftKey || event.button === 1) (event.stopImmediatePropagation(), event.preventDefault());
       },
       true,

@@ -95,7 +95,7 @@ export class Page {
         this.wrong.push(`console: ${JSON.stringify(params.args)}`);
       if (method === 'Log.entryAdded' && ['error', 'warning'].includes(params.entry.level))
         this.wrong.push(`log: ${params.entry.text}`);
-      if (method === 'Network.requestWillBeSent' && params.request.url !== url)
+      if (method === 'Network.requestWillBeSent' && !params.request.url.startsWith(url))
         this.wrong.push(`request: ${params.request.url.slice(0, 100)}`);
     });
   }
