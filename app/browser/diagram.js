@@ -112,7 +112,8 @@ export class Diagram {
   /// @param memory  by remember(), of a diagram of the same studies when they had fewer points
   constructor(studies, host, memory) {
     this.lines = studies.flatMap(linesOf).filter(({ rows }) => rows.length > 0);
-    for (const line of this.lines) line.shown = memory?.shown.get(keyOf(line)) ?? line.study.shown ?? true;
+    this.toggled = memory?.toggled ?? new Map(); // by the reader
+    for (const line of this.lines) line.shown = this.toggled.get(keyOf(line)) ?? line.study.shown ?? true;
     this.studies = studies;
     this.parameter = studies[0].parameter;
     this.axes = abscissae(this.lines, this.parameter);
@@ -133,7 +134,7 @@ export class Diagram {
   remember() {
     const { x, full } = this.view;
     return {
-      shown: new Map(this.lines.map((line) => [keyOf(line), line.shown])),
+      toggled: this.toggled,
       axis: this.axis.name,
       bySection: this.bySection,
       quantity: this.quantity?.name,
@@ -755,7 +756,11 @@ export class Diagram {
       const box = element('input', {
         type: 'checkbox',
         checked: line.shown,
-        onchange: () => ((line.shown = box.checked), this.redraw()),
+        onchange: () => {
+          line.shown = box.checked;
+          this.toggled.set(keyOf(line), line.shown);
+          this.redraw();
+        },
       });
       const swatch =
         line.branch === undefined ? null : element('span', { class: `swatch series${this.seriesOf(line)}` });

@@ -286,8 +286,8 @@ class Part {
           'div',
           { class: 'toolbar' },
           more,
-          element('label', { class: 'toggle' }, this.after, 'After the coarse diagram compute the full one'),
-          element('button', { type: 'button', text: 'Values of the study', onclick: () => this.reset() }),
+          element('label', { class: 'toggle' }, this.after, 'Compute the full diagram, too'),
+          element('button', { type: 'button', text: 'Back to the values of the study', onclick: () => this.reset() }),
         ),
       ),
     );
