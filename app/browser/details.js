@@ -437,6 +437,13 @@ export function orbitDetails(diagram, line, row) {
     const figure = sectionFigure(section, starts[row], starts[row + 1], () => diagram.colour(line, row));
     if (figure) made.append(figure);
   }
+  const colour = () => diagram.colour(line, row);
+  const multipliers = multiplierFigure(study, row, colour);
+  if (multipliers) made.append(multipliers);
+  const history = storedHistory(study, row);
+  if (history) made.append(...historyFigures(history, colour));
+  if (history && !stable)
+    made.append(element('p', { class: 'hint', text: 'The orbit is unstable: errors grow along this history.' }));
   const meshes = meshTables(table, row);
   if (meshes) made.append(meshes);
   made.append(
@@ -464,7 +471,62 @@ export function specialDetails(diagram, point) {
       speedText(table, point.row) ? `; ${speedText(table, point.row)}.` : '.',
     ),
     element('div', { class: 'scroll' }, allValues(table, point.row)),
+    besideSpecial(diagram, point),
   );
+}
+
+/// The orbit of the branch before a special point.
+function besideSpecial(diagram, point) {
+  const line = diagram.lines.find(({ study, branch }) => study === point.study && branch === point.branch);
+  if (!line) return null;
+  const made = orbitDetails(diagram, line, point.before);
+  made.querySelector('h3').textContent = `The orbit before it: ${made.querySelector('h3').textContent}`;
+  return made;
+}
+
+/// Multipliers of an orbit beside the unit circle; those far outside are in the caption only.
+function multiplierFigure(study, row, colour) {
+  const table = study.table('multipliers');
+  const count = study.multipliers_of_orbit;
+  if (!table || (row + 1) * count > table.rows) return null;
+  const [re, im] = ['real', 'imaginary'].map((name) => table.numbers(name).subarray(row * count, (row + 1) * count));
+  const known = Array.from(re, (_, k) => k).filter((k) => Number.isFinite(re[k]));
+  if (known.length === 0) return null;
+  const limit = 3;
+  const inside = known.filter((k) => Math.abs(re[k]) <= limit && Math.abs(im[k]) <= limit);
+  const reach = Math.max(1.15, ...inside.map((k) => 1.1 * Math.max(Math.abs(re[k]), Math.abs(im[k]))));
+  const text = (k) => `${number(re[k], 5)} ${im[k] < 0 ? '−' : '+'} ${number(Math.abs(im[k]), 5)} i`;
+  const far = known.filter((k) => !inside.includes(k)).map(text);
+  // Units of both axes are of one length.
+  let figure = null;
+  const wide = () => (figure ? figure.panel.plot.bbox.width / figure.panel.plot.bbox.height : 1.6);
+  figure = smallFigure(
+    `Floquet multipliers and the unit circle${far.length > 0 ? `; not drawn: ${far.join(', ')}` : ''}.`,
+    {
+      xLabel: () => 'Real part of μ',
+      yLabel: () => 'Imaginary part of μ',
+      xRange: () => [-1.6 * reach, 1.6 * reach],
+      range: ([low, high]) => {
+        const half = (0.5 * (high - low)) / wide();
+        return [-half, half];
+      },
+      draw: (context, place) => {
+        const angles = Array.from({ length: 181 }, (_, k) => (k * Math.PI) / 90);
+        strokeLine(context, place, angles.map(Math.cos), angles.map(Math.sin), { colour: theme().faint, width: 1 });
+        for (const k of inside) dot(context, place.x(re[k]), place.y(im[k]), 3 * place.ratio, colour());
+      },
+      hover: ({ left, top, x, y, ratio, leftOfPlot, topOfPlot }) => {
+        const near = inside.find((k) => Math.hypot((x(re[k]) - leftOfPlot) / ratio - left, (y(im[k]) - topOfPlot) / ratio - top) < 8);
+        return near === undefined ? null : { text: `${text(near)}\nmodulus ${number(Math.hypot(re[near], im[near]), 6)}` };
+      },
+    },
+  );
+  const fit = () => {
+    figure.view.full = [-reach * wide(), reach * wide()];
+    figure.view.reset();
+  };
+  new ResizeObserver(fit).observe(figure.host);
+  return figure.host;
 }
 
 /// Puts what was chosen beside the figure. Screen readers say its heading and its first line, and not all of it.

@@ -163,7 +163,7 @@ class Part {
     });
     this.content.replaceChildren(part);
     this.figures = this.live.build.figures(group, host, memory);
-    this.content.querySelectorAll('.study > details').forEach((one, k) => (one.open = Boolean(open[k])));
+    this.content.querySelectorAll('.study > details').forEach((one, k) => (one.open = open[k] ?? one.open));
     if (focused) this.content.querySelector('.figure')?.focus({ preventScroll: true });
     releasePanels();
     if (!this.toolsMade && group[0].numbers?.length > 0) this.makeTools(group[0]);

@@ -7,6 +7,8 @@ import { Run, titleOfTable } from './run.js';
 import { commandLine } from './details.js';
 import { chartOf, hasUsualChart } from './chart.js';
 import { Live } from './live.js';
+import { hasModes, modesFigure } from './modes.js';
+import { summaryOf } from './summary.js';
 
 const kindWords = new Map(
   Object.entries({
@@ -62,6 +64,7 @@ function figuresOf(group, host, memory) {
       return one.tables.filter(hasUsualChart).map((table) => chartOf(table, `${titleOfTable(table)}.`, labels));
     })
     .filter(Boolean);
+  charts.unshift(...group.filter(hasModes).map(modesFigure));
   if (charts.length > 0) host.append(element('div', { class: 'grid' }, charts));
   else if (!drawn)
     host.append(
@@ -203,7 +206,12 @@ function partOf(group, header) {
   part.append(host);
   for (const study of group) {
     const several = group.length > 1 ? `${study.derived ? study.label : study.title}: ` : '';
-    const hidden = ['section', 'section_starts', 'spectra', 'histories'];
+    const hidden = ['section', 'section_starts', 'spectra', 'histories', 'multipliers'];
+    study.summaries?.forEach(({ name, text }, k) => {
+      const made = folded(`${several}Results in words (${name})`, summaryOf(text));
+      made.open = k === 0 && !study.derived;
+      part.append(made);
+    });
     part.append(
       study.derived ? '' : folded(`${several}Symbols`, symbolsOf(study)),
       folded(

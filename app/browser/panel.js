@@ -228,6 +228,9 @@ export class Panel {
 
   listen(over) {
     let from = null; // of a pan
+    const fingers = new Map();
+    let pinched = null; // values under two fingers
+    const places = () => [...fingers.values()].sort((a, b) => a - b);
     over.addEventListener('click', () => {
       if (!this.dragged && this.found) this.options.pick?.(this.found);
       this.dragged = false;
@@ -253,7 +256,13 @@ export class Panel {
     // Pan: shift or the middle button and drag; on a touch screen one finger.
     const begin = (event) => {
       if (!(event.pointerType === 'touch' || event.shiftKey || event.button === 1)) return;
+      if (event.pointerType === 'touch') fingers.set(event.pointerId, event.clientX - over.getBoundingClientRect().left);
       from = { at: event.clientX, x: [...this.view.x] };
+      if (fingers.size === 2) {
+        pinched = places().map((at) => this.plot.posToVal(at, 'x'));
+        from = null;
+        this.dragged = true;
+      }
       over.setPointerCapture(event.pointerId);
     };
     over.addEventListener('pointerdown', begin);
@@ -266,6 +275,16 @@ export class Panel {
       true,
     );
     over.addEventListener('pointermove', (event) => {
+      if (fingers.has(event.pointerId)) fingers.set(event.pointerId, event.clientX - over.getBoundingClientRect().left);
+      if (pinched && fingers.size === 2) {
+        // The values stay under the fingers.
+        const [left, right] = places();
+        if (right - left < 12) return;
+        const perPixel = (pinched[1] - pinched[0]) / (right - left);
+        const low = pinched[0] - left * perPixel;
+        this.view.show([low, low + over.clientWidth * perPixel]);
+        return;
+      }
       if (!from) return;
       const step = ((from.at - event.clientX) / over.clientWidth) * (from.x[1] - from.x[0]);
       if (Math.abs(from.at - event.clientX) > 3) this.dragged = true;
@@ -273,6 +292,8 @@ export class Panel {
     });
     for (const end of ['pointerup', 'pointercancel'])
       over.addEventListener(end, (event) => {
+        fingers.delete(event.pointerId);
+        if (fingers.size < 2) pinched = null;
         if (from && event.pointerType === 'touch' && !this.dragged) {
           const box = over.getBoundingClientRect();
           const found = this.options.hover?.({

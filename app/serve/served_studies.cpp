@@ -190,6 +190,7 @@ struct ServedStudies::Served {
   const Served* root = nullptr;               ///< whose input it is derived from; null of a FOLDER of the command line
   std::string place{};                        ///< "refined" or "changed" of a derived one
   std::optional<input::LoadedInput> input{};  ///< of a sweep
+  bool has_branches = false;                  ///< a study of kind `continue`
   std::vector<AdjustableNumber> numbers{};    ///< of a root that is a sweep
   std::vector<Change> changes{};              ///< from the root's
   json how{};                                 ///< region, number of values, changed numbers
@@ -248,6 +249,7 @@ void ServedStudies::add(fs::path folder, const Served* root) {
   study->folder = std::move(folder);
   study->root = root;
   input::LoadedInput input = input::load_input(study->folder / "input.resolved.json");
+  study->has_branches = input.study.has_dynamics() && input.study.kind() == "continue";
   if (input.study.has_dynamics() && input.study.kind() == "sweep") {
     study->input = std::move(input);
     if (root == nullptr) study->numbers = NumberList(*study->input).list();
@@ -359,6 +361,12 @@ std::string ServedStudies::data(Served& study) const {
   const std::scoped_lock lock(study.mutex);
   const std::string revision = revision_of(study.folder);
   if (revision == study.revision && !study.encoded.empty()) return study.encoded;
+  // Of branches the report reads HDF5, which one thread at a time may use.
+  std::unique_lock<std::mutex> no_start(starting_, std::defer_lock);
+  if (study.has_branches) {
+    no_start.lock();
+    if (computation_->busy()) throw Refused{202, "It is shown when the computation has ended"};
+  }
   ReportData data;
   const auto stop_here = [] {
     if (end_requested()) throw Stopped();

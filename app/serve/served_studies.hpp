@@ -73,7 +73,7 @@ class ServedStudies {
   Arguments arguments_;
   mutable std::mutex mutex_;  ///< of the list: studies are added and stay
   std::vector<std::unique_ptr<Served>> all_;
-  std::mutex starting_;
+  mutable std::mutex starting_;  ///< held while a computation is started, and while none may be
   std::unique_ptr<ServedComputation> computation_;
 };
 

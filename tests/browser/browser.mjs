@@ -58,14 +58,17 @@ export class Browser {
   }
 
   /// A page with what goes wrong on it: errors of the console, exceptions, and requests for anything but itself.
-  async open(url, { width = 1440, height = 1000, dark = false } = {}) {
+  async open(url, { width = 1440, height = 1000, dark = false, calm = false } = {}) {
     const { targetId } = await this.send('Target.createTarget', { url: 'about:blank' });
     const { sessionId } = await this.send('Target.attachToTarget', { targetId, flatten: true });
     const page = new Page(this, sessionId, url);
     for (const domain of ['Page', 'Runtime', 'Log', 'Network']) await page.send(`${domain}.enable`);
     await page.send('Emulation.setDeviceMetricsOverride', { width, height, deviceScaleFactor: 1, mobile: width < 500 });
     await page.send('Emulation.setEmulatedMedia', {
-      features: [{ name: 'prefers-color-scheme', value: dark ? 'dark' : 'light' }],
+      features: [
+        { name: 'prefers-color-scheme', value: dark ? 'dark' : 'light' },
+        { name: 'prefers-reduced-motion', value: calm ? 'reduce' : 'no-preference' },
+      ],
     });
     await page.send('Page.navigate', { url });
     await page.until('document.body && document.body.dataset.state !== undefined');

@@ -179,6 +179,24 @@ try {
     clean(page, `${name} at 390 px`);
   }
 
+  // Two fingers zoom.
+  {
+    const page = await open('sweep.html', { width: 390, height: 844 });
+    await page.send('Emulation.setTouchEmulationEnabled', { enabled: true, maxTouchPoints: 2 });
+    const before = await picture(page);
+    const [left, top, width, height] = await over(page);
+    const fingers = (a, b) =>
+      [a, b].map((part, id) => ({ x: left + part * width, y: top + 0.5 * height, id, radiusX: 2, radiusY: 2 }));
+    await page.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: fingers(0.4, 0.6).slice(0, 1) });
+    await page.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: fingers(0.4, 0.6) });
+    for (const step of [0.05, 0.1, 0.15])
+      await page.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: fingers(0.4 - step, 0.6 + step) });
+    await page.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+    await page.frame();
+    expect((await picture(page)) !== before, 'two fingers do not zoom');
+    clean(page, 'two fingers');
+  }
+
   // Branches over a sweep; cells; one point.
   {
     const page = await open('both.html');
@@ -191,6 +209,12 @@ try {
       text.includes('stable branch') && text.includes('PD: period doubling (flip)'),
       'what branches and special points are',
     );
+    expect(text.includes('Results in words (sweep.md)') && text.includes('Windows'), 'the sweep in words');
+    // An orbit of the branch: multipliers and a history.
+    await page.value("document.querySelector('.figure').focus()");
+    for (let k = 0; k < 4 && !(await details(page)).includes('of branch'); ++k) await page.key('ArrowDown');
+    for (const word of ['Floquet multipliers and the unit circle', 'Time history of 4 mesh periods', 'Stability'])
+      expect((await details(page)).includes(word), `the orbit has no ${word}`);
     clean(page, 'both.html');
   }
   for (const [name, word] of [
@@ -209,6 +233,7 @@ try {
   {
     const page = await open('run.html');
     const text = await page.value('document.body.innerText');
+    expect((await page.value("document.querySelectorAll('.modes canvas').length")) === 1, 'modes of the stage of a run');
     for (const word of ['Time history', 'Phase portrait', 'Poincaré section', 'The operating point'])
       expect(text.includes(word), `run.html: no ${word}`);
     expect((await page.value("document.querySelectorAll('.panel').length")) >= 3, 'panels of the run');
@@ -224,7 +249,23 @@ try {
     );
     await page.frame();
     expect((await picture(page)) !== before, 'another column is the same picture');
+    // The modes are animated until they are paused; where motion is unwanted they stand still.
+    const shape = "document.querySelector('.modes canvas').toDataURL()";
+    const moving = await page.value(shape);
+    await page.until(`${shape} !== ${JSON.stringify(moving)}`);
+    await page.value("document.querySelector('.modes button').click()");
+    await page.frame();
+    const still = await page.value(shape);
+    await page.frame();
+    expect((await page.value(shape)) === still, 'the modes do not pause');
+    await page.value(
+      "(() => { const choice = document.querySelector('.modes select'); choice.selectedIndex = 4; choice.dispatchEvent(new Event('change')); })()",
+    );
+    expect((await page.value(shape)) !== still, 'another mode is the same picture');
     clean(page, 'gear.html');
+    const quiet = await open('gear.html', { calm: true });
+    expect((await quiet.value("document.querySelector('.modes button').textContent")) === 'Play', 'reduced motion');
+    clean(quiet, 'reduced motion');
   }
   {
     const page = await open('unfinished.html');
