@@ -287,6 +287,12 @@ function historyFigures(history, colour) {
   return [over.host, portrait.host];
 }
 
+/// A place for the history of a point that the page does not have, where `serve` computes it.
+export function computedHistory(study, point) {
+  const place = element('div', { class: 'history' });
+  return [place, longerHistory(study, point, place, () => theme().series[0], true)];
+}
+
 /// Of a page of `serve`: mesh periods that the server computes.
 /// @param now  without being asked for
 function longerHistory(study, point, place, colour, now) {
@@ -516,8 +522,12 @@ function multiplierFigure(study, row, colour) {
         for (const k of inside) dot(context, place.x(re[k]), place.y(im[k]), 3 * place.ratio, colour());
       },
       hover: ({ left, top, x, y, ratio, leftOfPlot, topOfPlot }) => {
-        const near = inside.find((k) => Math.hypot((x(re[k]) - leftOfPlot) / ratio - left, (y(im[k]) - topOfPlot) / ratio - top) < 8);
-        return near === undefined ? null : { text: `${text(near)}\nmodulus ${number(Math.hypot(re[near], im[near]), 6)}` };
+        const near = inside.find(
+          (k) => Math.hypot((x(re[k]) - leftOfPlot) / ratio - left, (y(im[k]) - topOfPlot) / ratio - top) < 8,
+        );
+        return near === undefined
+          ? null
+          : { text: `${text(near)}\nmodulus ${number(Math.hypot(re[near], im[near]), 6)}` };
       },
     },
   );

@@ -141,7 +141,10 @@ export class Diagram {
       colourBy: this.colourBy,
       view: x[0] === full[0] && x[1] === full[1] ? null : x,
       y: this.main.y,
-      chosen: this.chosen && { key: keyOf(this.chosen.line), at: this.chosen.line.table.numbers('value')[this.chosen.row] },
+      chosen: this.chosen && {
+        key: keyOf(this.chosen.line),
+        at: this.chosen.line.table.numbers('value')[this.chosen.row],
+      },
       details: this.details,
     };
   }
@@ -160,7 +163,7 @@ export class Diagram {
 
   /// What is visible, in values of the parameter.
   shownRange(x = this.view.x) {
-    const within = this.full();
+    const within = this.ends();
     const shown = [Math.max(x[0], within[0]), Math.min(x[1], within[1])];
     if (this.axis.name === 'value') return shown;
     // Speeds are proportional to each other.
@@ -191,14 +194,19 @@ export class Diagram {
     return line.table.isNumeric(name) ? line.table.numbers(name) : null;
   }
 
-  full() {
+  /// Least and largest abscissa.
+  ends() {
     let [low, high] = [Infinity, -Infinity];
     for (const line of this.lines)
       for (const row of line.rows) {
         const x = this.x(line)[row];
         if (Number.isFinite(x)) [low, high] = [Math.min(low, x), Math.max(high, x)];
       }
-    return rangeOf(low, high, 0.01);
+    return [low, high];
+  }
+
+  full() {
+    return rangeOf(...this.ends(), 0.01);
   }
 
   /// Of what is visible.
@@ -605,14 +613,16 @@ export class Diagram {
   build(host, memory) {
     this.view = new View(this.full());
     if (memory?.view) this.view.x = [...memory.view];
-    this.details = memory?.details ?? element(
-      'section',
-      { class: 'details', 'aria-label': 'The chosen point' },
-      element('p', {
-        class: 'hint',
-        text: 'Choose a point of the diagram: click on it, or use the arrow keys in the diagram.',
-      }),
-    );
+    this.details =
+      memory?.details ??
+      element(
+        'section',
+        { class: 'details', 'aria-label': 'The chosen point' },
+        element('p', {
+          class: 'hint',
+          text: 'Choose a point of the diagram: click on it, or use the arrow keys in the diagram.',
+        }),
+      );
     const figure = element('div', {
       class: 'figure',
       tabIndex: 0,
@@ -629,7 +639,7 @@ export class Diagram {
         this.details,
       ),
     );
-    const live = this.studies[0].live;
+    const live = this.studies.find(({ kind }) => kind === 'sweep')?.live;
     const panel = (options) =>
       new Panel({
         host: figure,

@@ -70,6 +70,7 @@ class Part {
   constructor(live, roots) {
     this.live = live;
     this.roots = roots; // numbers
+    this.sweep = roots.find((id) => live.state.studies[id].sweep) ?? roots[0];
     this.selected = null; // of the history
     this.figures = null;
     this.drawn = '';
@@ -99,7 +100,7 @@ class Part {
   }
 
   get root() {
-    return this.roots[0];
+    return this.sweep;
   }
 
   say(text) {
@@ -166,7 +167,8 @@ class Part {
     this.content.querySelectorAll('.study > details').forEach((one, k) => (one.open = open[k] ?? one.open));
     if (focused) this.content.querySelector('.figure')?.focus({ preventScroll: true });
     releasePanels();
-    if (!this.toolsMade && group[0].numbers?.length > 0) this.makeTools(group[0]);
+    const changeable = group.find(({ numbers }) => numbers?.length > 0);
+    if (!this.toolsMade && changeable) this.makeTools(changeable);
     document.body.dataset.drawn = String(Number(document.body.dataset.drawn ?? 0) + 1);
   }
 
@@ -176,7 +178,10 @@ class Part {
     const { computing } = state;
     const mine = computing && state.studies[computing.study]?.root === this.root;
     const root = this.live.source.loaded.get(this.root)?.study;
-    const progress = root?.run.state === 'complete' ? 'The study is complete.' : `The study grows: ${root?.progress ?? 'no point is finished'}.`;
+    const progress =
+      root?.run.state === 'complete'
+        ? 'The study is complete.'
+        : `The study grows: ${root?.progress ?? 'no point is finished'}.`;
     this.status.textContent = mine
       ? `Computing ${state.studies[computing.study].folder}: ${computing.done} of ${computing.total || '?'} points, ${computing.seconds.toFixed(0)} s.`
       : computing
@@ -254,7 +259,8 @@ class Part {
     const more = element('select', {
       'aria-label': 'Number to change',
       onchange: () => {
-        if (more.selectedIndex > 0 && this.sliders.length < most) this.addSlider(sliders, study, more.selectedIndex - 1);
+        if (more.selectedIndex > 0 && this.sliders.length < most)
+          this.addSlider(sliders, study, more.selectedIndex - 1);
         more.selectedIndex = 0;
       },
     });
@@ -300,8 +306,20 @@ class Part {
     const { name, meaning, unit, value, is_factor: factor } = study.numbers[k];
     const [low, high] = factor ? [0, 3] : value === 0 ? [0, 1] : [Math.min(0, 2 * value), Math.max(0, 2 * value)];
     const step = String((high - low) / 200);
-    const range = element('input', { type: 'range', min: String(low), max: String(high), step, value: String(value), 'aria-label': shortName(name) });
-    const exact = element('input', { type: 'number', step: 'any', value: String(value), 'aria-label': `${shortName(name)}, value` });
+    const range = element('input', {
+      type: 'range',
+      min: String(low),
+      max: String(high),
+      step,
+      value: String(value),
+      'aria-label': shortName(name),
+    });
+    const exact = element('input', {
+      type: 'number',
+      step: 'any',
+      value: String(value),
+      'aria-label': `${shortName(name)}, value`,
+    });
     const slider = { number: k, base: value, value, range, exact };
     const take = (text, other) => {
       const next = Number(text);
@@ -319,7 +337,11 @@ class Part {
       element(
         'div',
         { class: 'slider' },
-        element('span', { class: 'name', title: `${name}: ${meaning}`, text: `${shortName(name)}${factor ? ' (factor)' : ''}${unitText(unit) ? ` [${unitText(unit)}]` : ''}` }),
+        element('span', {
+          class: 'name',
+          title: `${name}: ${meaning}`,
+          text: `${shortName(name)}${factor ? ' (factor)' : ''}${unitText(unit) ? ` [${unitText(unit)}]` : ''}`,
+        }),
         range,
         exact,
         element('button', {
@@ -365,6 +387,8 @@ class Part {
   ended({ study, code, message }, state) {
     if (state.studies[study]?.root !== this.root) return;
     if (message) this.say(message);
+    else if (![0, 1, 75].includes(code))
+      this.say(`It ended with exit code ${code}. The terminal of the server says why.`);
     if (this.waiting === study && (code === 0 || code === 1) && this.after.checked) this.change(false);
     if (this.waiting === study) this.waiting = null;
   }
@@ -394,8 +418,16 @@ export class Live {
     const roots = this.state.studies.filter(({ root }) => root === undefined);
     const loaded = [];
     for (const root of roots) loaded.push({ id: root.id, ...(await this.source.study(root)) });
-    const known = this.build.groups(loaded.filter(({ study }) => study).map(({ id, study }) => Object.assign(study, { served: id })));
-    for (const group of known) this.parts.push(new Part(this, group.map(({ served }) => served)));
+    const known = this.build.groups(
+      loaded.filter(({ study }) => study).map(({ id, study }) => Object.assign(study, { served: id })),
+    );
+    for (const group of known)
+      this.parts.push(
+        new Part(
+          this,
+          group.map(({ served }) => served),
+        ),
+      );
     for (const { id, study } of loaded) if (!study) this.parts.push(new Part(this, [id]));
     this.parts.sort((a, b) => a.root - b.root);
     this.page.append(...this.parts.map(({ node }) => node));

@@ -104,7 +104,16 @@ export function modesFigure(study) {
     const ringRadius = 2 - sunRadius;
     member(colours.series[2], 0, 0, ringRadius, Math.PI / 2, ['x_r', 'y_r', 'u_r'], ring, 0.9 * ringRadius);
     angles.forEach((angle, i) =>
-      member(colours.series[1], Math.cos(angle), Math.sin(angle), 1 - sunRadius, angle, [`x_p${i + 1}`, `y_p${i + 1}`, `u_p${i + 1}`], planet, 0),
+      member(
+        colours.series[1],
+        Math.cos(angle),
+        Math.sin(angle),
+        1 - sunRadius,
+        angle,
+        [`x_p${i + 1}`, `y_p${i + 1}`, `u_p${i + 1}`],
+        planet,
+        0,
+      ),
     );
     member(colours.series[0], 0, 0, sunRadius, Math.PI / 2, ['x_s', 'y_s', 'u_s'], sun, 0);
   }
@@ -126,7 +135,9 @@ export function modesFigure(study) {
   }
 
   caption.append(
-    rich('Natural modes of the linear stage. Displacements are enlarged, and their frequency is not to scale. The marks show rotations, which count as displacements of the base circles; grey is at rest.'),
+    rich(
+      'Natural modes of the linear stage. Displacements are enlarged, and their frequency is not to scale. The marks show rotations, which count as displacements of the base circles; grey is at rest.',
+    ),
   );
   const key = ['sun', 'planets', 'ring', 'carrier'].map((name, k) =>
     element('li', {}, element('span', { class: `swatch series${k}` }), name),
@@ -140,7 +151,10 @@ export function modesFigure(study) {
     element('div', { class: 'choosers' }, choice, button),
   );
   // The first mode that is no rigid rotation.
-  choice.selectedIndex = Math.max(0, shapes.findIndex(({ frequency }) => frequency > 0));
+  choice.selectedIndex = Math.max(
+    0,
+    shapes.findIndex(({ frequency }) => frequency > 0),
+  );
   choose();
   onTheme(() => canvas.isConnected && draw());
   requestAnimationFrame(() => (draw(), play(playing)));

@@ -39,14 +39,14 @@ function groupsOf(studies) {
 }
 
 /// @param memory  of the figure that was there before
-/// @returns what is drawn over the parameter of a sweep, or nothing
+/// @returns the figure of the points, or null
 function figuresOf(group, host, memory) {
   const [study] = group;
   const kinds = {
     sweep: () => new Diagram(group, host, memory),
     continue: () => new Diagram(group, host, memory),
-    map: () => new Plane(study, host),
-    basins: () => new Plane(study, host),
+    map: () => new Plane(study, host, memory),
+    basins: () => new Plane(study, host, memory),
     run: () => new Run(study, host),
   };
   const needed = {

@@ -256,7 +256,8 @@ export class Panel {
     // Pan: shift or the middle button and drag; on a touch screen one finger.
     const begin = (event) => {
       if (!(event.pointerType === 'touch' || event.shiftKey || event.button === 1)) return;
-      if (event.pointerType === 'touch') fingers.set(event.pointerId, event.clientX - over.getBoundingClientRect().left);
+      if (event.pointerType === 'touch')
+        fingers.set(event.pointerId, event.clientX - over.getBoundingClientRect().left);
       from = { at: event.clientX, x: [...this.view.x] };
       if (fingers.size === 2) {
         pinched = places().map((at) => this.plot.posToVal(at, 'x'));

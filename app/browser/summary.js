@@ -5,7 +5,12 @@ import { element } from './words.js';
 /// Code, strong words and links within a line; a link keeps its words only.
 function inline(text) {
   const made = document.createDocumentFragment();
-  const plain = (part) => part.replace(/\\([\\`*_{}[\]()<>#+.!|~-])/g, '$1').replace(/&lt;/g, '<').replace(/&gt;/g, '>').replace(/&amp;/g, '&');
+  const plain = (part) =>
+    part
+      .replace(/\\([\\`*_{}[\]()<>#+.!|~-])/g, '$1')
+      .replace(/&lt;/g, '<')
+      .replace(/&gt;/g, '>')
+      .replace(/&amp;/g, '&');
   let end = 0;
   for (const found of text.matchAll(/`([^`]+)`|(?<!\\)\*\*([^*]+)\*\*|!?(?<!\\)\[([^\]]*)\]\([^)]*\)/g)) {
     made.append(plain(text.slice(end, found.index)));
@@ -57,7 +62,7 @@ export function summaryOf(text) {
     while (end < lines.length && holds(lines[end])) ++end;
     return lines.slice(k, end);
   };
-  for (let k = 0; k < lines.length; ) {
+  for (let k = 0; k < lines.length;) {
     const line = lines[k];
     const heading = /^(#{1,4}) (.*)/.exec(line);
     if (heading) {

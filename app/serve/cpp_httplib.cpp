@@ -234,7 +234,7 @@ class LoopbackServer : public HttpServer {
   void stop() override {
     if (!listener_.joinable()) return;
     // It may not listen yet.
-    while (!server_.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    for (int k = 0; k < 1000 && !server_.is_running(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     server_.end_connections();
     server_.stop();
     listener_.join();

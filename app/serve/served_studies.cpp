@@ -189,11 +189,12 @@ struct ServedStudies::Served {
   fs::path folder;
   const Served* root = nullptr;               ///< whose input it is derived from; null of a FOLDER of the command line
   std::string place{};                        ///< "refined" or "changed" of a derived one
-  std::optional<input::LoadedInput> input{};  ///< of a sweep
-  bool has_branches = false;                  ///< a study of kind `continue`
-  std::vector<AdjustableNumber> numbers{};    ///< of a root that is a sweep
-  std::vector<Change> changes{};              ///< from the root's
-  json how{};                                 ///< region, number of values, changed numbers
+  std::optional<input::LoadedInput> input{};  ///< of a study whose points a journal keeps
+  bool is_sweep = false;
+  bool has_branches = false;                ///< a study of kind `continue`
+  std::vector<AdjustableNumber> numbers{};  ///< of a root that is a sweep
+  std::vector<Change> changes{};            ///< from the root's
+  json how{};                               ///< region, number of values, changed numbers
 
   std::mutex mutex{};
   std::string revision{};
@@ -250,8 +251,10 @@ void ServedStudies::add(fs::path folder, const Served* root) {
   study->root = root;
   input::LoadedInput input = input::load_input(study->folder / "input.resolved.json");
   study->has_branches = input.study.has_dynamics() && input.study.kind() == "continue";
-  if (input.study.has_dynamics() && input.study.kind() == "sweep") {
-    study->input = std::move(input);
+  study->is_sweep = input.study.has_dynamics() && input.study.kind() == "sweep";
+  const input::StudyKind* kind = input.study.plan.kind();
+  if (kind != nullptr && kind->points_kept == input::PointsKept::journal) study->input = std::move(input);
+  if (study->is_sweep) {
     if (root == nullptr) study->numbers = NumberList(*study->input).list();
     if (root != nullptr) study->place = study->folder.parent_path().filename().string();
     if (root != nullptr) study->describe();
@@ -262,7 +265,7 @@ void ServedStudies::add(fs::path folder, const Served* root) {
 }
 
 void ServedStudies::find_derived(const Served& root) {
-  if (!root.input) return;
+  if (!root.is_sweep) return;
   for (const char* place : {"refined", "changed"}) {
     std::vector<fs::path> folders;
     std::error_code error;
@@ -341,7 +344,7 @@ json ServedStudies::state() const {
     json one = {{"id", study->id},
                 {"folder", study->folder.string()},
                 {"revision", revision_of(study->folder)},
-                {"sweep", study->input.has_value()}};
+                {"sweep", study->is_sweep}};
     if (study->root != nullptr) {
       one["root"] = study->root->id;
       one["how"] = study->how;
@@ -387,7 +390,7 @@ std::string ServedStudies::data(Served& study) const {
                        {"suggested", number.is_suggested}});
   described["numbers"] = std::move(numbers);
   described["served"] = study.id;
-  if (study.input) described["recorded_periods"] = study.input->study.recording().recorded_periods;
+  if (study.is_sweep) described["recorded_periods"] = study.input->study.recording().recorded_periods;
   study.encoded = data.encoded({{"format", 1},
                                 {"program", {{"version", EPICYCLIC_VERSION}, {"commit", EPICYCLIC_COMMIT}}},
                                 {"um_per_b_c", micrometres_per_length_scale()},
@@ -399,13 +402,13 @@ std::string ServedStudies::data(Served& study) const {
 json ServedStudies::history(Served& study, const json& request) const {
   require_only(request, {"study", "point", "periods"});
   const int periods = integer_in(request, "periods", 1, history_periods_max);
-  if (!study.input) throw Refused{409, "histories are computed at points of sweeps only"};
+  if (!study.input) throw Refused{409, "this study keeps no points"};
   const input::LoadedInput& input = *study.input;
   const studies::SweepPlan plan = input::plan_of(input.study);
   const auto point =
       static_cast<std::size_t>(integer_in(request, "point", 0, static_cast<int>(plan.points.size()) - 1));
   const std::scoped_lock lock(study.mutex);
-  const std::string identity = identity_of(input, "sweep");
+  const std::string identity = identity_of(input, input.study.kind());
   if (run_of(study.folder).value("identity", "") != identity)
     throw Refused{409, "another version of the numerics computed this study"};
   const std::string revision = revision_of(study.folder);
@@ -429,7 +432,7 @@ json ServedStudies::history(Served& study, const json& request) const {
 
 json ServedStudies::refine(const Served& study, const json& request) {
   require_only(request, {"study", "from", "to", "values", "records"});
-  if (!study.input) throw Refused{409, "regions of sweeps only are computed finer"};
+  if (!study.is_sweep) throw Refused{409, "regions of sweeps only are computed finer"};
   const double from = number_in(request, "from");
   const double to = number_in(request, "to");
   if (!(from < to)) throw InputError("from: is not below to");
@@ -447,7 +450,7 @@ json ServedStudies::refine(const Served& study, const json& request) {
 json ServedStudies::change(const Served& study, const json& request) {
   require_only(request, {"study", "numbers", "coarse"});
   const Served& root = study.top();
-  if (!root.input) throw Refused{409, "numbers of sweeps only are changed"};
+  if (!root.is_sweep) throw Refused{409, "numbers of sweeps only are changed"};
   const auto coarse = request.find("coarse");
   if (coarse == request.end() || !coarse->is_boolean()) throw InputError("coarse: is not true or false");
   const auto numbers = request.find("numbers");
@@ -507,6 +510,7 @@ json ServedStudies::begin(const Served& root, const char* place, std::vector<Cha
   study->root = &root;
   study->place = place;
   study->input = std::move(input);
+  study->is_sweep = true;
   study->describe();
   std::size_t id = 0;
   {

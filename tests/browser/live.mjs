@@ -14,9 +14,12 @@ const expect = (holds, what) => {
 const browser = new Browser(program);
 const clean = (page, name) => expect(page.wrong.length === 0, `${name}: ${page.wrong.join('\n')}`);
 const state = (page) => page.value("document.querySelector('.live .state').textContent");
-const steps = (page) => page.value("[...document.querySelectorAll('.steps button')].map((button) => button.textContent)");
+const steps = (page) =>
+  page.value("[...document.querySelectorAll('.steps button')].map((button) => button.textContent)");
 const counted = (page) =>
-  page.value("[...document.querySelectorAll('.legend li')].reduce((sum, { textContent }) => sum + Number(/: (\\d+) point/.exec(textContent)?.[1] ?? 0), 0)");
+  page.value(
+    "[...document.querySelectorAll('.legend li')].reduce((sum, { textContent }) => sum + Number(/: (\\d+) point/.exec(textContent)?.[1] ?? 0), 0)",
+  );
 const idle = "document.body.dataset.computing === 'no'";
 
 /// Over a part of the diagram, with Ctrl.
@@ -43,9 +46,17 @@ try {
     await page.key('ArrowRight');
     const chosen = await page.value("document.querySelector('.details h3').textContent");
     await page.key('+', '+');
-    await page.until(`[...document.querySelectorAll('.legend li')].reduce((sum, { textContent }) => sum + Number(/: (\\d+) point/.exec(textContent)?.[1] ?? 0), 0) > ${before}`);
-    expect(/^The study grows: \d+ of 1200 points are finished/.test(await state(page)), `it grows: ${await state(page)}`);
-    expect((await page.value("document.querySelector('.details h3').textContent")) === chosen, 'the chosen point is gone');
+    await page.until(
+      `[...document.querySelectorAll('.legend li')].reduce((sum, { textContent }) => sum + Number(/: (\\d+) point/.exec(textContent)?.[1] ?? 0), 0) > ${before}`,
+    );
+    expect(
+      /^The study grows: \d+ of 1200 points are finished/.test(await state(page)),
+      `it grows: ${await state(page)}`,
+    );
+    expect(
+      (await page.value("document.querySelector('.details h3').textContent")) === chosen,
+      'the chosen point is gone',
+    );
     expect(await page.value("document.querySelector('.figure').contains(document.activeElement)"), 'the keys are gone');
     clean(page, 'growing');
   }
@@ -66,9 +77,19 @@ try {
   await region(page, 0.3, 0.6);
   await page.until("document.querySelectorAll('.steps button').length === 2");
   await page.until(idle);
-  await page.until(`[...document.querySelectorAll('.legend li')].reduce((sum, { textContent }) => sum + Number(/: (\\d+) point/.exec(textContent)?.[1] ?? 0), 0) === ${all + 12}`);
-  expect(/^Region 001: Ω 2\.1\d* to 2\.2\d*, 6 values/.test((await steps(page))[1]), `the history: ${await steps(page)}`);
-  expect((await page.value("document.querySelector('.live').textContent")).includes('epicyclic sweep sweep/refined/001/input.resolved.json -o sweep/refined/001'), 'the command of the region');
+  await page.until(
+    `[...document.querySelectorAll('.legend li')].reduce((sum, { textContent }) => sum + Number(/: (\\d+) point/.exec(textContent)?.[1] ?? 0), 0) === ${all + 12}`,
+  );
+  expect(
+    /^Region 001: Ω 2\.1\d* to 2\.2\d*, 6 values/.test((await steps(page))[1]),
+    `the history: ${await steps(page)}`,
+  );
+  expect(
+    (await page.value("document.querySelector('.live').textContent")).includes(
+      'epicyclic sweep sweep/refined/001/input.resolved.json -o sweep/refined/001',
+    ),
+    'the command of the region',
+  );
   await page.value("document.querySelector('.steps button').click()");
   await page.until("document.querySelector('.steps button').getAttribute('aria-pressed') === 'true'");
   await page.until(`document.querySelectorAll('.toggles label').length === 2`);
@@ -79,7 +100,9 @@ try {
   expect((await steps(second)).length === 2, 'the history in another window');
   await second.value("document.querySelector('.live input').value = '3000'");
   await second.value("document.querySelector('.refine').click()");
-  await page.until("/^Computing sweep\\/refined\\/002: \\d+ of 6000 points/.test(document.querySelector('.live .state').textContent)");
+  await page.until(
+    "/^Computing sweep\\/refined\\/002: \\d+ of 6000 points/.test(document.querySelector('.live .state').textContent)",
+  );
   expect(!(await page.value("document.querySelector('.live .line button').hidden")), 'no button to cancel');
   await page.value("document.querySelector('.live .line button').click()");
   await second.until(idle);
@@ -107,7 +130,10 @@ try {
     "(() => { const exact = document.querySelector('.slider input[type=number]'); exact.value = '-1'; exact.dispatchEvent(new Event('change')); })()",
   );
   await page.until("document.querySelector('.live .warning') && !document.querySelector('.live .warning').hidden");
-  expect(/damping_ratio/.test(await page.value("document.querySelector('.live .warning').textContent")), 'why a number is refused');
+  expect(
+    /damping_ratio/.test(await page.value("document.querySelector('.live .warning').textContent")),
+    'why a number is refused',
+  );
   page.wrong = page.wrong.filter((text) => !/status of 422/.test(text));
   clean(page, 'live');
 

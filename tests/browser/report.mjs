@@ -233,7 +233,10 @@ try {
   {
     const page = await open('run.html');
     const text = await page.value('document.body.innerText');
-    expect((await page.value("document.querySelectorAll('.modes canvas').length")) === 1, 'modes of the stage of a run');
+    expect(
+      (await page.value("document.querySelectorAll('.modes canvas').length")) === 1,
+      'modes of the stage of a run',
+    );
     for (const word of ['Time history', 'Phase portrait', 'Poincaré section', 'The operating point'])
       expect(text.includes(word), `run.html: no ${word}`);
     expect((await page.value("document.querySelectorAll('.panel').length")) >= 3, 'panels of the run');
