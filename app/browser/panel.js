@@ -192,6 +192,10 @@ export class Panel {
 
   selected(plot) {
     const { left, top, width, height } = plot.select;
+    // Panels with the same abscissa select what is selected in one of them: only that one zooms.
+    const own = this.pressed;
+    this.pressed = false;
+    if (!own) return plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
     if (width < 4 && height < 4) return;
     this.dragged = true;
     const before = this.y;
@@ -270,6 +274,7 @@ export class Panel {
     over.addEventListener(
       'mousedown',
       (event) => {
+        this.pressed = true;
         this.withControl = event.ctrlKey || event.metaKey;
         if (event.shiftKey || event.button === 1) (event.stopImmediatePropagation(), event.preventDefault());
       },

@@ -81,7 +81,7 @@ try {
     `[...document.querySelectorAll('.legend li')].reduce((sum, { textContent }) => sum + Number(/: (\\d+) point/.exec(textContent)?.[1] ?? 0), 0) === ${all + 12}`,
   );
   expect(
-    /^Region 001: Ω 2\.1\d* to 2\.2\d*, 6 values/.test((await steps(page))[1]),
+    /^Region 001: Ω 2\.159\d* to 2\.22\d*, 6 values/.test((await steps(page))[1]),
     `the history: ${await steps(page)}`,
   );
   expect(

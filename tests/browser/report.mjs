@@ -78,6 +78,23 @@ try {
     await page.drag([left + 0.3 * width, top + 0.5 * height], [left + 0.6 * width, top + 0.5 * height]);
     const dragged = await picture(page);
     expect(dragged !== chosen, 'a drag does not zoom');
+    // 0.3 to 0.6 of the range have two values of Ω: a drag zooms once, and not once for each panel.
+    const columns = await page.value(`(() => {
+      const canvas = document.querySelector('.panel canvas');
+      const [own, over] = [canvas, document.querySelector('.u-over')].map((node) => node.getBoundingClientRect());
+      const copy = new OffscreenCanvas(over.width - 20, over.height - 20).getContext('2d', { willReadFrequently: true });
+      copy.drawImage(canvas, own.left - over.left - 10, own.top - over.top - 10);
+      const { data, width } = copy.getImageData(0, 0, over.width - 20, over.height - 20);
+      const names = ['--class0', '--class1', '--class2', '--class3', '--class4', '--class5'];
+      const colours = names.map((name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim());
+      const wanted = colours.map((text) => [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16)));
+      const found = new Set();
+      for (let at = 0; at < data.length; at += 4)
+        if (wanted.some((rgb) => rgb.every((value, k) => Math.abs(data[at + k] - value) < 3)))
+          found.add(Math.floor(((at / 4) % width) / 40));
+      return [...found];
+    })()`);
+    expect(columns.length >= 2 && columns.length <= 6, `after the drag points are drawn in ${columns.length} places`);
     await page.click(left + 0.1 * width, top + 0.97 * height, 2);
     expect((await picture(page)) !== dragged, 'a double click does not show all');
     await page.key('0', '0');
