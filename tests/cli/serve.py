@@ -243,7 +243,7 @@ for thread in slow:
     thread.start()
 time.sleep(0.3)
 begun = time.time()
-expect(server.ask("GET", home)[0] == 200 and time.time() - begun < 2, "nobody is served while others send slowly")
+expect(server.ask("GET", home)[0] == 200 and time.time() - begun < 3.5, "nobody is served while others send slowly")
 
 # ---- a region, finer, while the slow ones are still there
 
@@ -284,7 +284,7 @@ expect(server.post("change", {"study": 0, "numbers": [{"number": 0, "value": 0.2
 begun = time.time()
 server.post("cancel", {})
 state = server.until(lambda s: s["computing"] is None, "the end after cancelling")
-expect(state["last"]["code"] == 75 and time.time() - begun < 2, f"cancelled: {state['last']}")
+expect(state["last"]["code"] == 75 and time.time() - begun < 5, f"cancelled: {state['last']}")
 expect(json.load(open(f"{folder}/run.json"))["state"] == "stopped", "the folder of what was cancelled")
 expect(server.post("refine", {**long, "values": 3})[0] == 202, "another one after it")
 server.until(lambda s: s["computing"] is None, "another one after it")
@@ -292,7 +292,7 @@ server.until(lambda s: s["computing"] is None, "another one after it")
 folder = server.post("refine", long)[1]["folder"]
 server.until(lambda s: s["computing"] and s["computing"]["done"] > 0, "points before a signal")
 code, seconds = server.end(signal.SIGINT)
-expect(code == 75 and seconds < 2, f"a signal: code {code} after {seconds:.1f} s")
+expect(code == 75 and seconds < 3, f"a signal: code {code} after {seconds:.1f} s")
 expect(json.load(open(f"{folder}/run.json"))["state"] in ("stopped", "running"), "the folder after a signal")
 
 # What an earlier session has computed is there again. Killed while it computes: the folder resumes.
@@ -324,5 +324,5 @@ server.until(lambda s: len(server.post("data", {"study": 0})[1]) > size, "more p
 writer.terminate()
 writer.wait()
 code, seconds = server.end()
-expect(code == 0 and seconds < 2, f"the end: code {code} after {seconds:.1f} s")
+expect(code == 0 and seconds < 3, f"the end: code {code} after {seconds:.1f} s")
 sys.exit(failures > 0)
