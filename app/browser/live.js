@@ -76,7 +76,8 @@ class Part {
     this.drawn = '';
     this.node = element('div');
     this.content = element('div');
-    this.status = element('span', { role: 'status', class: 'state' });
+    this.status = element('span', { class: 'state' });
+    this.said = element('span', { role: 'status', class: 'unseen' }); // for screen readers, not with each point
     this.cancel = element('button', { type: 'button', text: 'Cancel', hidden: true, onclick: () => live.cancel() });
     this.message = element('p', { class: 'warning', role: 'alert', hidden: true });
     this.steps = element('ol', { class: 'steps', 'aria-label': 'History' });
@@ -85,7 +86,7 @@ class Part {
       element(
         'section',
         { class: 'live', 'aria-label': 'Live' },
-        element('p', { class: 'line' }, this.status, ' ', this.cancel),
+        element('p', { class: 'line' }, this.status, this.said, ' ', this.cancel),
         this.message,
         (this.tools = element('div')),
         this.steps,
@@ -188,6 +189,9 @@ class Part {
         ? `${progress} Another part of this page is being computed.`
         : progress;
     this.cancel.hidden = !mine;
+    const situation = mine ? `computing ${computing.study}` : (root?.run.state ?? '');
+    if (situation !== this.situation) this.said.textContent = this.status.textContent;
+    this.situation = situation;
     const steps = this.derived(state);
     const key = JSON.stringify([steps.map(({ id }) => id), this.selected]);
     if (key === this.stepsShown || !root) return;
