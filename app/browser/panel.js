@@ -259,6 +259,8 @@ export class Panel {
     );
     // Pan: shift or the middle button and drag; on a touch screen one finger.
     const begin = (event) => {
+      // A click after a drag is kept from us by the axes.
+      if (fingers.size === 0) this.dragged = false;
       if (!(event.pointerType === 'touch' || event.shiftKey || event.button === 1)) return;
       if (event.pointerType === 'touch')
         fingers.set(event.pointerId, event.clientX - over.getBoundingClientRect().left);

@@ -35,6 +35,28 @@ const picture = (page) =>
   );
 const chosenValue = async (page) => Number((/= ([0-9.]+)/.exec(await details(page)) ?? [])[1]);
 
+/// Where points are drawn in the first panel, in colours of regimes: one place in each 40 pixels of the abscissa.
+const drawnPlaces = (page) =>
+  page.value(`(() => {
+    const canvas = document.querySelector('.panel canvas');
+    const [own, over] = [canvas, document.querySelector('.u-over')].map((node) => node.getBoundingClientRect());
+    const margin = 20;
+    const [width, height] = [over.width - 2 * margin, over.height - 2 * margin].map(Math.floor);
+    const copy = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
+    copy.drawImage(canvas, own.left - over.left - margin, own.top - over.top - margin);
+    const { data } = copy.getImageData(0, 0, width, height);
+    const names = ['--class0', '--class1', '--class2', '--class3', '--class4', '--class5'];
+    const colours = names.map((name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim());
+    const wanted = colours.map((text) => [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16)));
+    const found = new Map();
+    for (let at = 0; at < width * height; ++at) {
+      const [x, y] = [at % width, Math.floor(at / width)];
+      if (wanted.some((rgb) => rgb.every((value, k) => Math.abs(data[4 * at + k] - value) < 3)) && !found.has(Math.floor(x / 40)))
+        found.set(Math.floor(x / 40), [x + over.left + margin, y + over.top + margin]);
+    }
+    return [...found.values()];
+  })()`);
+
 try {
   {
     const page = await open('sweep.html');
@@ -79,22 +101,12 @@ try {
     const dragged = await picture(page);
     expect(dragged !== chosen, 'a drag does not zoom');
     // 0.3 to 0.6 of the range have two values of Ω: a drag zooms once, and not once for each panel.
-    const columns = await page.value(`(() => {
-      const canvas = document.querySelector('.panel canvas');
-      const [own, over] = [canvas, document.querySelector('.u-over')].map((node) => node.getBoundingClientRect());
-      const copy = new OffscreenCanvas(over.width - 20, over.height - 20).getContext('2d', { willReadFrequently: true });
-      copy.drawImage(canvas, own.left - over.left - 10, own.top - over.top - 10);
-      const { data, width } = copy.getImageData(0, 0, over.width - 20, over.height - 20);
-      const names = ['--class0', '--class1', '--class2', '--class3', '--class4', '--class5'];
-      const colours = names.map((name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim());
-      const wanted = colours.map((text) => [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16)));
-      const found = new Set();
-      for (let at = 0; at < data.length; at += 4)
-        if (wanted.some((rgb) => rgb.every((value, k) => Math.abs(data[at + k] - value) < 3)))
-          found.add(Math.floor(((at / 4) % width) / 40));
-      return [...found];
-    })()`);
+    const columns = await drawnPlaces(page);
     expect(columns.length >= 2 && columns.length <= 6, `after the drag points are drawn in ${columns.length} places`);
+    // The first click after it chooses.
+    await page.click(...columns[0]);
+    const clicked = await chosenValue(page);
+    expect(clicked > 2.15 && clicked < 2.23, `a click after the drag chooses ${clicked}`);
     await page.click(left + 0.1 * width, top + 0.97 * height, 2);
     expect((await picture(page)) !== dragged, 'a double click does not show all');
     await page.key('0', '0');
@@ -111,20 +123,7 @@ try {
     await page.key('0', '0');
 
     // Hover over the point that was chosen, and click.
-    const place = await page.value(`(() => {
-      const canvas = document.querySelector('.panel canvas');
-      const paint = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-      const over = document.querySelector('.u-over').getBoundingClientRect();
-      const own = canvas.getBoundingClientRect();
-      const colours = ['--class0', '--class1', '--class2', '--class3', '--class4'].map((name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim());
-      const wanted = colours.map((text) => [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16)));
-      for (let y = 20; y < over.height - 20; ++y)
-        for (let x = 40; x < over.width - 40; ++x) {
-          const at = 4 * (Math.round(y + over.top - own.top) * canvas.width + Math.round(x + over.left - own.left));
-          if (wanted.some((rgb) => rgb.every((value, k) => Math.abs(paint.data[at + k] - value) < 3))) return [x + over.left, y + over.top];
-        }
-      return null;
-    })()`);
+    const place = (await drawnPlaces(page))[0] ?? null;
     expect(place !== null, 'no point is drawn in the colour of a regime');
     if (place) {
       await page.mouse('mouseMoved', place[0] - 1, place[1]);
