@@ -1,4 +1,8 @@
-"""serve.py EPICYCLIC: a client of `serve`, as its page and as somebody else, in the folder of serve.sh."""
+"""serve.py EPICYCLIC SLOW: a client of `serve`, as its page and as somebody else, in the folder of serve.sh.
+
+Times may be SLOW times as long as in a build without sanitizers.
+"""
+import atexit
 import http.client
 import json
 import os
@@ -13,6 +17,7 @@ import threading
 import time
 
 program = sys.argv[1]
+slow_by = float(sys.argv[2])
 failures = 0
 
 
@@ -29,12 +34,13 @@ class Server:
         self.errors = open("server.err", "w+")
         self.process = subprocess.Popen([program, "serve", *folders, "--threads", "2"], stdout=subprocess.PIPE,
                                         stderr=self.errors, text=True)
+        atexit.register(self.process.kill)
         line = self.process.stdout.readline()
         found = re.fullmatch(r"open http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/\n", line)
         expect(found, f"it prints {line!r}")
         self.port, self.token = int(found[1]), found[2]
 
-    def ask(self, method, path, body=None, timeout=30, **headers):
+    def ask(self, method, path, body=None, timeout=300, **headers):
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=timeout)
         named = {name.replace("_", "-"): value for name, value in headers.items()}
         connection.request(method, path, body, named)
@@ -52,7 +58,7 @@ class Server:
         return self.post("state", {})[1]
 
     def until(self, holds, what, seconds=30):
-        end = time.time() + seconds
+        end = time.time() + slow_by * seconds
         while time.time() < end:
             state = self.state()
             if holds(state):
@@ -67,7 +73,7 @@ class Server:
     def end(self, number=signal.SIGTERM):
         begun = time.time()
         self.process.send_signal(number)
-        code = self.process.wait(20)
+        code = self.process.wait(20 * slow_by)
         return code, time.time() - begun
 
 
@@ -243,7 +249,7 @@ for thread in slow:
     thread.start()
 time.sleep(0.3)
 begun = time.time()
-expect(server.ask("GET", home)[0] == 200 and time.time() - begun < 3.5, "nobody is served while others send slowly")
+expect(server.ask("GET", home)[0] == 200 and time.time() - begun < 3.5 * slow_by, "nobody is served while others send slowly")
 
 # ---- a region, finer, while the slow ones are still there
 
@@ -260,7 +266,7 @@ expect(state["studies"][1]["command"] == "epicyclic sweep sweep/refined/001/inpu
 expect(run("sweep", "sweep/refined/001/input.resolved.json", "-o", "sweep/refined/001") == 0, "the command of a region fails")
 for thread in slow:
     thread.join()
-expect(max(ended) < 8, f"a slow sender had {max(ended):.1f} s")
+expect(max(ended) < 8 * slow_by, f"a slow sender had {max(ended):.1f} s")
 
 # ---- numbers of the input
 
@@ -284,7 +290,7 @@ expect(server.post("change", {"study": 0, "numbers": [{"number": 0, "value": 0.2
 begun = time.time()
 server.post("cancel", {})
 state = server.until(lambda s: s["computing"] is None, "the end after cancelling")
-expect(state["last"]["code"] == 75 and time.time() - begun < 5, f"cancelled: {state['last']}")
+expect(state["last"]["code"] == 75 and time.time() - begun < 5 * slow_by, f"cancelled: {state['last']}")
 expect(json.load(open(f"{folder}/run.json"))["state"] == "stopped", "the folder of what was cancelled")
 expect(server.post("refine", {**long, "values": 3})[0] == 202, "another one after it")
 server.until(lambda s: s["computing"] is None, "another one after it")
@@ -292,7 +298,7 @@ server.until(lambda s: s["computing"] is None, "another one after it")
 folder = server.post("refine", long)[1]["folder"]
 server.until(lambda s: s["computing"] and s["computing"]["done"] > 0, "points before a signal")
 code, seconds = server.end(signal.SIGINT)
-expect(code == 75 and seconds < 3, f"a signal: code {code} after {seconds:.1f} s")
+expect(code == 75 and seconds < 3 * slow_by, f"a signal: code {code} after {seconds:.1f} s")
 expect(json.load(open(f"{folder}/run.json"))["state"] in ("stopped", "running"), "the folder after a signal")
 
 # What an earlier session has computed is there again. Killed while it computes: the folder resumes.
@@ -324,5 +330,5 @@ server.until(lambda s: len(server.post("data", {"study": 0})[1]) > size, "more p
 writer.terminate()
 writer.wait()
 code, seconds = server.end()
-expect(code == 0 and seconds < 3, f"the end: code {code} after {seconds:.1f} s")
+expect(code == 0 and seconds < 3 * slow_by, f"the end: code {code} after {seconds:.1f} s")
 sys.exit(failures > 0)

@@ -26,7 +26,7 @@ if [ "$(code_of timeout 1 "$epicyclic" serve sweep)" = 2 ]; then
 fi
 make_unfinished
 cp -r sweep before
-python3 "$2/tests/cli/serve.py" "$epicyclic" || failed=$((failed + 1))
+python3 "$2/tests/cli/serve.py" "$epicyclic" "$(or_if_slow 1 20)" || failed=$((failed + 1))
 # Folders of its own, and nothing else of the study is another.
 [ "$(diff -rq before sweep)" = "$(printf 'Only in sweep: changed\nOnly in sweep: refined')" ] || fail "the study was changed: $(diff -rq before sweep)"
 finish
