@@ -1,6 +1,8 @@
 // epicyclic serve: the page of a report, live, for a browser on this machine.
 
 #include <chrono>
+#include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -37,18 +39,20 @@ std::string page_of(const ServedStudies& studies) {
 
 int serve_command(const Arguments& arguments) {
   ServedStudies studies(arguments);
-  const std::unique_ptr<HttpServer> server = HttpServer::on_loopback(arguments.port);
-  const Gate gate(random_token(), server->port(), ServedStudies::actions());
   const std::string page = page_of(studies);
-  server->start({.refuse = [&](const HttpRequest& request) { return gate.refuse(request); },
+  std::optional<Gate> gate;
+  // After what its threads use.
+  const std::unique_ptr<HttpServer> server = HttpServer::on_loopback(arguments.port);
+  gate.emplace(random_token(), server->port(), ServedStudies::actions());
+  server->start({.refuse = [&](const HttpRequest& request) { return gate->refuse(request); },
                  .answer = [&](const HttpRequest& request) -> HttpAnswer {
-                   const std::string action = gate.action_of(request);
+                   const std::string action = gate->action_of(request);
                    if (action.empty()) return {200, "text/html; charset=utf-8", page};
                    auto [status, text] = studies.answer(action, request.body);
                    const bool is_data = action == "data" && status == 200;
                    return {status, is_data ? "application/octet-stream" : "application/json", std::move(text)};
                  }});
-  print("open http://127.0.0.1:{}{}\n", server->port(), gate.page());
+  print("open http://127.0.0.1:{}{}\n", server->port(), gate->page());
   while (!end_requested()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   const bool stopped = studies.end();
   server->stop();

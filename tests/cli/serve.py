@@ -106,6 +106,8 @@ expect(headers.get("Cache-Control") == "no-store" and headers.get("X-Frame-Optio
        headers.get("Referrer-Policy") == "no-referrer", "its headers")
 expect(server.ask("GET", home, Host=f"localhost:{server.port}")[0] == 200, "by the name localhost")
 
+expect(run("serve", "sweep", "--port", str(server.port)) == 2, "two servers have one port")
+
 # Loopback alone.
 own = [line.split() for line in open("/proc/net/tcp").read().splitlines()[1:]]
 places = [parts[1] for parts in own if parts[3] == "0A" and parts[1].endswith(":%04X" % server.port)]

@@ -24,6 +24,7 @@ if [ "$(code_of timeout 1 "$epicyclic" serve sweep)" = 2 ]; then
   grep -qF 'was built without cpp-httplib' stderr || fail "without HTTP: $(<stderr)"
   skip "built without cpp-httplib"
 fi
+[ "$("$epicyclic" serve sweep 2>stderr >/dev/full; echo $?)" = 5 ] || fail "no place for its address: $(<stderr)"
 make_unfinished
 cp -r sweep before
 python3 "$2/tests/cli/serve.py" "$epicyclic" "$(or_if_slow 1 20)" || failed=$((failed + 1))
