@@ -10,13 +10,15 @@ const fast = 300; // ms, while something is computed
 const most = 4; // numbers that are changed at a time
 
 /// Asks the server.
-/// @throws Error with the server's words
+/// @throws Error with the server's words and its status, 0 without an answer
 async function request(action, body = {}) {
   const answer = await fetch(action, {
     method: 'POST',
     headers: { 'Content-Type': 'application/json' },
     body: JSON.stringify(body),
     cache: 'no-store',
+  }).catch(() => {
+    throw Object.assign(new Error('the server does not answer'), { status: 0 });
   });
   if (!answer.ok) {
     const { error } = await answer.json().catch(() => ({}));
@@ -462,7 +464,7 @@ export class Live {
       }
       if (this.state.computing) wait = fast;
     } catch (error) {
-      if (error instanceof TypeError && /fetch|network/i.test(error.message)) this.lost.hidden = false;
+      if (error.status === 0) this.lost.hidden = false;
       else if (error.status === undefined) throw error;
       wait = 3 * slow;
     } finally {

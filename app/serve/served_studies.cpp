@@ -252,6 +252,7 @@ void ServedStudies::add(fs::path folder, const Served* root) {
   input::LoadedInput input = input::load_input(study->folder / "input.resolved.json");
   study->has_branches = input.study.has_dynamics() && input.study.kind() == "continue";
   study->is_sweep = input.study.has_dynamics() && input.study.kind() == "sweep";
+  if (root != nullptr && !study->is_sweep) throw InputError(study->folder.string() + ": is not derived from a sweep");
   const input::StudyKind* kind = input.study.plan.kind();
   if (kind != nullptr && kind->points_kept == input::PointsKept::journal) study->input = std::move(input);
   if (study->is_sweep) {

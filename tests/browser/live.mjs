@@ -4,7 +4,7 @@
 // a slider moved, two windows; a narrow screen, dark, no error and no request to another place.
 import { Browser } from './browser.mjs';
 
-const [, , program, address, growing] = process.argv;
+const [, , program, address, growing, server] = process.argv;
 let failed = 0;
 const expect = (holds, what) => {
   if (holds) return;
@@ -136,6 +136,11 @@ try {
   );
   page.wrong = page.wrong.filter((text) => !/status of 422/.test(text));
   clean(page, 'live');
+
+  // The server ends: the page says so, and keeps what it shows.
+  process.kill(Number(server), 'SIGTERM');
+  await page.until("!document.querySelector('main > .warning').hidden");
+  expect((await counted(page)) > 0, 'nothing is shown any more');
 
   // The policy: nothing but the server is reached.
   const refused = await page.value(`new Promise((resolve) => {

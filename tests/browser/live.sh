@@ -24,7 +24,7 @@ while [ ! -s growing/journal.bin ]; do sleep 0.05; done
 "$epicyclic" serve growing >growing.served 2>/dev/null &
 second=$!
 while [ ! -s growing.served ]; do sleep 0.05; done
-node "$2/tests/browser/live.mjs" "$chromium" "$(sed 's/^open //' served)" "$(sed 's/^open //' growing.served)" || fail "the pages"
+node "$2/tests/browser/live.mjs" "$chromium" "$(sed 's/^open //' served)" "$(sed 's/^open //' growing.served)" $server || fail "the pages"
 kill $server $second $writer 2>/dev/null || true
 wait || true
 finish
