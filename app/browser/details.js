@@ -1,5 +1,5 @@
 // What is known of one point of a sweep, of one orbit of a branch, or of a special point.
-import { Panel, View, dot, rangeOf, strokeLine } from './panel.js';
+import { Panel, View, dot, rangeOf, releasePanels, strokeLine } from './panel.js';
 import { theme } from './theme.js';
 import { axisLabel, capital, element, factorOf, number, rich, symbol, tableOf, unitText, withError } from './words.js';
 import { errorOf, specialName } from './diagram.js';
@@ -214,15 +214,30 @@ function spectrumFigure(study, row, colour) {
   return figure.host;
 }
 
-/// Some mesh periods from the stored state: a quantity over the time, and a deflection over its rate.
-function historyFigures(study, row, colour) {
+const historyColumns = [
+  ['delta_sp_1', 'b_c', 'deflection of sun-planet mesh 1'],
+  ['delta_rp_1', 'b_c', 'deflection of ring-planet mesh 1'],
+  ['delta_sp_1_rate', 'b_c per tau', 'rate of the deflection of sun-planet mesh 1'],
+  ['delta_rp_1_rate', 'b_c per tau', 'rate of the deflection of ring-planet mesh 1'],
+  ['force_sp_1', 'N', 'force of sun-planet mesh 1'],
+  ['force_rp_1', 'N', 'force of ring-planet mesh 1'],
+].map(([name, unit, meaning]) => ({ name, unit, meaning }));
+
+/// Some mesh periods that the page has of a point; null without them.
+function storedHistory(study, row) {
   const { history } = study;
   const table = study.table('histories');
   const rows = history ? history.periods * history.phases + 1 : 0;
-  if (!table || (row + 1) * rows > table.rows) return [];
-  const values = ({ name, unit }) =>
-    Float64Array.from(table.numbers(name).subarray(row * rows, (row + 1) * rows), (value) => factorOf(unit) * value);
-  if (!values(table.columns[0]).some(Number.isFinite)) return [];
+  if (!table || (row + 1) * rows > table.rows) return null;
+  const numbers = (name) => table.numbers(name).subarray(row * rows, (row + 1) * rows);
+  if (!numbers(table.columns[0].name).some(Number.isFinite)) return null;
+  return { ...history, columns: table.columns, numbers };
+}
+
+/// A quantity over the time, and a deflection over its rate.
+function historyFigures(history, colour) {
+  const rows = history.periods * history.phases + 1;
+  const values = ({ name, unit }) => Float64Array.from(history.numbers(name), (value) => factorOf(unit) * value);
   const times = Float64Array.from({ length: rows }, (_, k) => k / history.phases);
   const chooser = (columns, text, action) => {
     const made = element(
@@ -232,7 +247,8 @@ function historyFigures(study, row, colour) {
     );
     return element('div', { class: 'choosers' }, made);
   };
-  const plain = table.columns.filter(({ name }) => !name.endsWith('_rate'));
+  const has = (name) => history.columns.find((column) => column.name === name);
+  const plain = history.columns.filter(({ name }) => !name.endsWith('_rate'));
   let shown = plain[0];
   const over = smallFigure(
     `Time history of ${history.periods} mesh periods, computed from the stored state for this page.`,
@@ -245,9 +261,9 @@ function historyFigures(study, row, colour) {
     },
   );
   over.host.append(chooser(plain, 'Quantity of the history', (column) => ((shown = column), over.panel.relabel())));
-  const pairs = table.columns.filter(({ name }) => table.has(`${name}_rate`));
+  const pairs = history.columns.filter(({ name }) => has(`${name}_rate`));
   let pair = pairs[0];
-  const rate = () => table.byName.get(`${pair.name}_rate`);
+  const rate = () => has(`${pair.name}_rate`);
   const portrait = smallFigure('Phase portrait of the same mesh periods; the dots are at the mesh phase 0.', {
     xLabel: () => axisLabel(pair),
     yLabel: () => axisLabel(rate()),
@@ -269,6 +285,43 @@ function historyFigures(study, row, colour) {
     }),
   );
   return [over.host, portrait.host];
+}
+
+/// A place for the history of a point that the page does not have, where `serve` computes it.
+export function computedHistory(study, point) {
+  const place = element('div', { class: 'history' });
+  return [place, longerHistory(study, point, place, () => theme().series[0], true)];
+}
+
+/// Of a page of `serve`: mesh periods that the server computes.
+/// @param now  without being asked for
+function longerHistory(study, point, place, colour, now) {
+  const said = element('span', { role: 'status' });
+  const periods = element(
+    'select',
+    { 'aria-label': 'Mesh periods of the history' },
+    [4, 16, 64, 256].map((count) => element('option', { value: String(count), text: `${count} mesh periods` })),
+  );
+  const compute = async () => {
+    said.textContent = 'Computing.';
+    try {
+      const { columns, ...history } = await study.live.history(study, point, Number(periods.value));
+      const numbers = (name) => columns[name].map((value) => value ?? NaN);
+      place.replaceChildren(...historyFigures({ ...history, columns: historyColumns, numbers }, colour));
+      said.textContent = '';
+    } catch (error) {
+      said.textContent = `No history: ${error.message}.`;
+    }
+    releasePanels();
+  };
+  if (now) compute();
+  return element(
+    'div',
+    { class: 'choosers' },
+    periods,
+    element('button', { type: 'button', text: 'Compute this history', onclick: compute }),
+    said,
+  );
 }
 
 export const shellWord = (text) => (/^[A-Za-z0-9_./+:=@%-]+$/.test(text) ? text : `'${text.replace(/'/g, "'\\''")}'`);
@@ -340,7 +393,10 @@ export function pointDetails(diagram, line, row) {
     const figure = sectionFigure(section, starts[row], starts[row + 1], colour);
     if (figure) made.append(figure);
   }
-  made.append(...historyFigures(study, row, colour));
+  const history = storedHistory(study, row);
+  const place = element('div', { class: 'history' }, history ? historyFigures(history, colour) : null);
+  made.append(place);
+  if (study.live) made.append(longerHistory(study, index, place, colour, !history));
   const spectrum = spectrumFigure(study, row, colour);
   if (spectrum) made.append(spectrum);
   const meshes = meshTables(table, row);
@@ -387,6 +443,13 @@ export function orbitDetails(diagram, line, row) {
     const figure = sectionFigure(section, starts[row], starts[row + 1], () => diagram.colour(line, row));
     if (figure) made.append(figure);
   }
+  const colour = () => diagram.colour(line, row);
+  const multipliers = multiplierFigure(study, row, colour);
+  if (multipliers) made.append(multipliers);
+  const history = storedHistory(study, row);
+  if (history) made.append(...historyFigures(history, colour));
+  if (history && !stable)
+    made.append(element('p', { class: 'hint', text: 'The orbit is unstable: errors grow along this history.' }));
   const meshes = meshTables(table, row);
   if (meshes) made.append(meshes);
   made.append(
@@ -414,7 +477,66 @@ export function specialDetails(diagram, point) {
       speedText(table, point.row) ? `; ${speedText(table, point.row)}.` : '.',
     ),
     element('div', { class: 'scroll' }, allValues(table, point.row)),
+    besideSpecial(diagram, point),
   );
+}
+
+/// The orbit of the branch before a special point.
+function besideSpecial(diagram, point) {
+  const line = diagram.lines.find(({ study, branch }) => study === point.study && branch === point.branch);
+  if (!line) return null;
+  const made = orbitDetails(diagram, line, point.before);
+  made.querySelector('h3').textContent = `The orbit before it: ${made.querySelector('h3').textContent}`;
+  return made;
+}
+
+/// Multipliers of an orbit beside the unit circle; those far outside are in the caption only.
+function multiplierFigure(study, row, colour) {
+  const table = study.table('multipliers');
+  const count = study.multipliers_of_orbit;
+  if (!table || (row + 1) * count > table.rows) return null;
+  const [re, im] = ['real', 'imaginary'].map((name) => table.numbers(name).subarray(row * count, (row + 1) * count));
+  const known = Array.from(re, (_, k) => k).filter((k) => Number.isFinite(re[k]));
+  if (known.length === 0) return null;
+  const limit = 3;
+  const inside = known.filter((k) => Math.abs(re[k]) <= limit && Math.abs(im[k]) <= limit);
+  const reach = Math.max(1.15, ...inside.map((k) => 1.1 * Math.max(Math.abs(re[k]), Math.abs(im[k]))));
+  const text = (k) => `${number(re[k], 5)} ${im[k] < 0 ? '−' : '+'} ${number(Math.abs(im[k]), 5)} i`;
+  const far = known.filter((k) => !inside.includes(k)).map(text);
+  // Units of both axes are of one length.
+  let figure = null;
+  const wide = () => (figure ? figure.panel.plot.bbox.width / figure.panel.plot.bbox.height : 1.6);
+  figure = smallFigure(
+    `Floquet multipliers and the unit circle${far.length > 0 ? `; not drawn: ${far.join(', ')}` : ''}.`,
+    {
+      xLabel: () => 'Real part of μ',
+      yLabel: () => 'Imaginary part of μ',
+      xRange: () => [-1.6 * reach, 1.6 * reach],
+      range: ([low, high]) => {
+        const half = (0.5 * (high - low)) / wide();
+        return [-half, half];
+      },
+      draw: (context, place) => {
+        const angles = Array.from({ length: 181 }, (_, k) => (k * Math.PI) / 90);
+        strokeLine(context, place, angles.map(Math.cos), angles.map(Math.sin), { colour: theme().faint, width: 1 });
+        for (const k of inside) dot(context, place.x(re[k]), place.y(im[k]), 3 * place.ratio, colour());
+      },
+      hover: ({ left, top, x, y, ratio, leftOfPlot, topOfPlot }) => {
+        const near = inside.find(
+          (k) => Math.hypot((x(re[k]) - leftOfPlot) / ratio - left, (y(im[k]) - topOfPlot) / ratio - top) < 8,
+        );
+        return near === undefined
+          ? null
+          : { text: `${text(near)}\nmodulus ${number(Math.hypot(re[near], im[near]), 6)}` };
+      },
+    },
+  );
+  const fit = () => {
+    figure.view.full = [-reach * wide(), reach * wide()];
+    figure.view.reset();
+  };
+  new ResizeObserver(fit).observe(figure.host);
+  return figure.host;
 }
 
 /// Puts what was chosen beside the figure. Screen readers say its heading and its first line, and not all of it.
@@ -422,6 +544,7 @@ export function showDetails(place, made) {
   const said = ['h3', 'p'].map((tag) => made.querySelector(tag)?.textContent ?? '').join('. ');
   const status = place.querySelector('[role=status]') ?? element('p', { role: 'status', class: 'unseen' });
   place.replaceChildren(status, made);
+  releasePanels();
   status.textContent = said;
 }
 

@@ -78,6 +78,9 @@ function linesOf(study) {
   }));
 }
 
+/// A line of a study is the same when the study has more points.
+const keyOf = ({ study, name }) => `${study.folder}:${name}`;
+
 /// Abscissae that all lines have: the parameter, and speeds where it is the speed.
 function abscissae(lines, parameter) {
   const all = [{ name: 'value', label: parameter.label }];
@@ -106,8 +109,11 @@ function quantitiesOf(lines) {
 }
 
 export class Diagram {
-  constructor(studies, host) {
+  /// @param memory  by remember(), of a diagram of the same studies when they had fewer points
+  constructor(studies, host, memory) {
     this.lines = studies.flatMap(linesOf).filter(({ rows }) => rows.length > 0);
+    this.toggled = memory?.toggled ?? new Map(); // by the reader
+    for (const line of this.lines) line.shown = this.toggled.get(keyOf(line)) ?? line.study.shown ?? true;
     this.studies = studies;
     this.parameter = studies[0].parameter;
     this.axes = abscissae(this.lines, this.parameter);
@@ -119,9 +125,51 @@ export class Diagram {
     this.bySection = Boolean(first);
     this.colourBy = this.lines.some(({ classes }) => classes) ? 'regime' : 'line';
     this.chosen = null;
-    this.caches = new Map();
     this.special = studies.filter(({ kind }) => kind === 'continue').flatMap((study) => this.specialOf(study));
-    this.build(host);
+    if (memory) this.recall(memory);
+    this.build(host, memory);
+  }
+
+  /// What a reader has chosen.
+  remember() {
+    const { x, full } = this.view;
+    return {
+      toggled: this.toggled,
+      axis: this.axis.name,
+      bySection: this.bySection,
+      quantity: this.quantity?.name,
+      colourBy: this.colourBy,
+      view: x[0] === full[0] && x[1] === full[1] ? null : x,
+      y: this.main.y,
+      chosen: this.chosen && {
+        key: keyOf(this.chosen.line),
+        at: this.chosen.line.table.numbers('value')[this.chosen.row],
+      },
+      details: this.details,
+    };
+  }
+
+  recall(memory) {
+    const columns = memory.bySection ? this.quantities.sections : this.quantities.curves;
+    const quantity = columns.find(({ name }) => name === memory.quantity);
+    if (quantity) [this.bySection, this.quantity] = [memory.bySection, quantity];
+    this.axis = this.axes.find(({ name }) => name === memory.axis) ?? this.axes[0];
+    if (this.lines.some(({ classes }) => classes)) this.colourBy = memory.colourBy;
+    const line = memory.chosen && this.lines.find((one) => keyOf(one) === memory.chosen.key);
+    if (!line) return;
+    const row = line.rows.find((one) => line.table.numbers('value')[one] === memory.chosen.at);
+    if (row !== undefined) this.chosen = { line, row };
+  }
+
+  /// What is visible, in values of the parameter.
+  shownRange(x = this.view.x) {
+    const within = this.ends();
+    const shown = [Math.max(x[0], within[0]), Math.min(x[1], within[1])];
+    if (this.axis.name === 'value') return shown;
+    // Speeds are proportional to each other.
+    const { table, rows } = this.lines[0];
+    const factor = table.numbers('value')[rows[0]] / table.numbers(this.axis.name)[rows[0]];
+    return shown.map((value) => value * factor);
   }
 
   // ---- values ---------------------------------------------------------------------------------------------------
@@ -146,14 +194,19 @@ export class Diagram {
     return line.table.isNumeric(name) ? line.table.numbers(name) : null;
   }
 
-  full() {
+  /// Least and largest abscissa.
+  ends() {
     let [low, high] = [Infinity, -Infinity];
     for (const line of this.lines)
       for (const row of line.rows) {
         const x = this.x(line)[row];
         if (Number.isFinite(x)) [low, high] = [Math.min(low, x), Math.max(high, x)];
       }
-    return rangeOf(low, high, 0.01);
+    return [low, high];
+  }
+
+  full() {
+    return rangeOf(...this.ends(), 0.01);
   }
 
   /// Of what is visible.
@@ -557,16 +610,19 @@ export class Diagram {
 
   // ---- the page -------------------------------------------------------------------------------------------------
 
-  build(host) {
+  build(host, memory) {
     this.view = new View(this.full());
-    this.details = element(
-      'section',
-      { class: 'details', 'aria-label': 'The chosen point' },
-      element('p', {
-        class: 'hint',
-        text: 'Choose a point of the diagram: click on it, or use the arrow keys in the diagram.',
-      }),
-    );
+    if (memory?.view) this.view.x = [...memory.view];
+    this.details =
+      memory?.details ??
+      element(
+        'section',
+        { class: 'details', 'aria-label': 'The chosen point' },
+        element('p', {
+          class: 'hint',
+          text: 'Choose a point of the diagram: click on it, or use the arrow keys in the diagram.',
+        }),
+      );
     const figure = element('div', {
       class: 'figure',
       tabIndex: 0,
@@ -583,6 +639,7 @@ export class Diagram {
         this.details,
       ),
     );
+    const live = this.studies.find(({ kind }) => kind === 'sweep')?.live;
     const panel = (options) =>
       new Panel({
         host: figure,
@@ -590,6 +647,7 @@ export class Diagram {
         sync: `diagram${Diagram.count}`,
         xLabel: () => this.axis.label,
         pick: (found) => this.choose(found),
+        region: live && ((range) => live.refine(this.shownRange(range))),
         ...options,
       });
     Diagram.count = (Diagram.count ?? 0) + 1;
@@ -619,6 +677,7 @@ export class Diagram {
           this.quantity,
         ),
     });
+    if (memory?.y && memory.quantity === this.quantity.name) this.main.y = memory.y;
     below.forEach(([name, limit, range], k) => {
       const column = this.lines.map(({ table }) => table.byName.get(name)).find(Boolean);
       panel({
@@ -660,6 +719,7 @@ export class Diagram {
         curves.map((column) => option(column, 'curve')),
       ),
     );
+    if (this.quantity) choice.value = `${this.bySection ? 'section' : 'curve'}:${this.quantity.name}`;
     const axes = element(
       'select',
       {
@@ -670,7 +730,9 @@ export class Diagram {
           for (const panel of this.view.panels) panel.relabel();
         },
       },
-      this.axes.map(({ label }) => element('option', { text: label.replace(/\s+/g, ' ') })),
+      this.axes.map((axis) =>
+        element('option', { text: axis.label.replace(/\s+/g, ' '), selected: axis === this.axis }),
+      ),
     );
     const units = element(
       'select',
@@ -681,7 +743,7 @@ export class Diagram {
           if (this.chosen) this.choose(this.chosen);
         },
       },
-      ['b_c', 'µm'].map((text) => element('option', { text })),
+      ['b_c', 'µm'].map((text, k) => element('option', { text, selected: lengthUnit.micrometres === (k === 1) })),
     );
     const colours = element(
       'select',
@@ -692,7 +754,9 @@ export class Diagram {
           this.redraw();
         },
       },
-      ['regime', 'direction'].map((text) => element('option', { text })),
+      ['regime', 'direction'].map((text, k) =>
+        element('option', { text, selected: (this.colourBy === 'regime') === (k === 0) }),
+      ),
     );
     const button = (text, label, action) =>
       element('button', { type: 'button', text, title: label, 'aria-label': label, onclick: action });
@@ -701,8 +765,12 @@ export class Diagram {
     const toggles = this.lines.map((line) => {
       const box = element('input', {
         type: 'checkbox',
-        checked: true,
-        onchange: () => ((line.shown = box.checked), this.redraw()),
+        checked: line.shown,
+        onchange: () => {
+          line.shown = box.checked;
+          this.toggled.set(keyOf(line), line.shown);
+          this.redraw();
+        },
       });
       const swatch =
         line.branch === undefined ? null : element('span', { class: `swatch series${this.seriesOf(line)}` });

@@ -6,6 +6,9 @@ import { Plane } from './plane.js';
 import { Run, titleOfTable } from './run.js';
 import { commandLine } from './details.js';
 import { chartOf, hasUsualChart } from './chart.js';
+import { Live } from './live.js';
+import { hasModes, modesFigure } from './modes.js';
+import { summaryOf } from './summary.js';
 
 const kindWords = new Map(
   Object.entries({
@@ -35,13 +38,15 @@ function groupsOf(studies) {
   return groups;
 }
 
-function figuresOf(group, host) {
+/// @param memory  of the figure that was there before
+/// @returns the figure of the points, or null
+function figuresOf(group, host, memory) {
   const [study] = group;
   const kinds = {
-    sweep: () => new Diagram(group, host),
-    continue: () => new Diagram(group, host),
-    map: () => new Plane(study, host),
-    basins: () => new Plane(study, host),
+    sweep: () => new Diagram(group, host, memory),
+    continue: () => new Diagram(group, host, memory),
+    map: () => new Plane(study, host, memory),
+    basins: () => new Plane(study, host, memory),
     run: () => new Run(study, host),
   };
   const needed = {
@@ -52,18 +57,20 @@ function figuresOf(group, host) {
     run: 'points.csv',
   };
   const drawn = kinds[study.kind] && group.some((one) => one.table(needed[one.kind])?.rows > 0);
-  if (drawn) kinds[study.kind]();
+  const figure = drawn ? kinds[study.kind]() : null;
   const charts = group
     .flatMap((one) => {
       const labels = { value: one.parameter.label, first: one.parameter.label, second: one.second_parameter?.label };
       return one.tables.filter(hasUsualChart).map((table) => chartOf(table, `${titleOfTable(table)}.`, labels));
     })
     .filter(Boolean);
+  charts.unshift(...group.filter(hasModes).map(modesFigure));
   if (charts.length > 0) host.append(element('div', { class: 'grid' }, charts));
   else if (!drawn)
     host.append(
       element('p', { class: 'hint', text: 'This report draws no figure of this study. Its tables are below.' }),
     );
+  return figure;
 }
 
 /// Keys of the input, object by object, with unit and origin.
@@ -179,6 +186,8 @@ function symbolsOf(study) {
 function partOf(group, header) {
   const part = element('section', { class: 'study' });
   for (const study of group) {
+    // What `serve` has computed of a study is described by its history.
+    if (study.derived) continue;
     part.append(
       header.studies.length > 1 ? element('h2', { text: study.title }) : '',
       element('p', { class: 'lead' }, rich(`${kindWords.get(study.kind) ?? capital(study.kind)}. ${study.lead}`)),
@@ -188,7 +197,7 @@ function partOf(group, header) {
       part.append(
         element('p', {
           class: 'warning',
-          text: `This study is not complete: ${study.progress}. Repeat its command to complete it.`,
+          text: `This study is not complete: ${study.progress}. ${study.live ? 'Its points appear here as they are finished.' : 'Repeat its command to complete it.'}`,
         }),
       );
     for (const warning of study.warnings) part.append(element('p', { class: 'warning', text: capital(warning) }));
@@ -196,10 +205,15 @@ function partOf(group, header) {
   const host = element('div', { class: 'figures' });
   part.append(host);
   for (const study of group) {
-    const several = group.length > 1 ? `${study.title}: ` : '';
-    const hidden = ['section', 'section_starts', 'spectra', 'histories'];
+    const several = group.length > 1 ? `${study.derived ? study.label : study.title}: ` : '';
+    const hidden = ['section', 'section_starts', 'spectra', 'histories', 'multipliers'];
+    study.summaries?.forEach(({ name, text }, k) => {
+      const made = folded(`${several}Results in words (${name})`, summaryOf(text));
+      made.open = k === 0 && !study.derived;
+      part.append(made);
+    });
     part.append(
-      folded(`${several}Symbols`, symbolsOf(study)),
+      study.derived ? '' : folded(`${several}Symbols`, symbolsOf(study)),
       folded(
         `${several}Input: values, units and origins`,
         element(
@@ -238,8 +252,14 @@ function partOf(group, header) {
 async function show() {
   const page = document.getElementById('page');
   try {
-    const header = await readPayload(document.getElementById('data'));
+    const header = await readPayload(document.getElementById('data').textContent);
     lengthUnit.um_per_b_c = header.um_per_b_c;
+    if (header.live) {
+      const build = { groups: groupsOf, part: partOf, figures: figuresOf };
+      await new Live(page, build).start();
+      document.body.dataset.state = 'ready';
+      return;
+    }
     page.replaceChildren();
     for (const group of groupsOf(header.studies)) {
       const [part, host] = partOf(group, header);

@@ -12,6 +12,14 @@ export function rangeOf(low, high, margin) {
   return [low - margin * wide, high + margin * wide];
 }
 
+const all = new Set();
+onTheme(() => all.forEach((panel) => panel.build()));
+
+/// Gives up the panels that are not on the page any more.
+export function releasePanels() {
+  for (const panel of all) if (!panel.node.isConnected) panel.release();
+}
+
 /// A view of the abscissa that panels share.
 export class View {
   constructor(full) {
@@ -45,7 +53,8 @@ export class View {
 
 export class Panel {
   /// @param options  host, view, height, xLabel(), yLabel(), range(x): that of the ordinate, draw(context, place, panel),
-  ///                 hover(place): the text of what is there and whatever pick() takes, pick(found), xAxis, logarithmic
+  ///                 hover(place): the text of what is there and whatever pick() takes, pick(found), xAxis, logarithmic,
+  ///                 region([from, to]) of the abscissa: a drag with Ctrl
   constructor(options) {
     this.options = options;
     this.view = options.view;
@@ -56,8 +65,15 @@ export class Panel {
     options.host.append(this.node);
     this.view.panels.push(this);
     this.build();
-    new ResizeObserver(() => this.resize()).observe(this.node);
-    onTheme(() => this.build());
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(this.node);
+    all.add(this);
+  }
+
+  release() {
+    all.delete(this);
+    this.observer.disconnect();
+    this.plot.destroy();
   }
 
   build() {
@@ -176,12 +192,23 @@ export class Panel {
 
   selected(plot) {
     const { left, top, width, height } = plot.select;
+    // Panels with the same abscissa select what is selected in one of them: only that one zooms.
+    const own = this.pressed;
+    this.pressed = false;
+    if (!own) return plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
     if (width < 4 && height < 4) return;
     this.dragged = true;
+    const before = this.y;
     const x = [plot.posToVal(left, 'x'), plot.posToVal(left + width, 'x')];
     if (height > 4 && height < plot.over.clientHeight - 1)
       this.y = [plot.posToVal(top + height, 'y'), plot.posToVal(top, 'y')];
     plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+    if (this.options.region && this.withControl && width > 4) {
+      this.y = before;
+      this.redraw();
+      this.options.region(x);
+      return;
+    }
     if (width > 4 && width < plot.over.clientWidth - 1) this.view.show(x);
     else this.redraw();
   }
@@ -205,6 +232,9 @@ export class Panel {
 
   listen(over) {
     let from = null; // of a pan
+    const fingers = new Map();
+    let pinched = null; // values under two fingers
+    const places = () => [...fingers.values()].sort((a, b) => a - b);
     over.addEventListener('click', () => {
       if (!this.dragged && this.found) this.options.pick?.(this.found);
       this.dragged = false;
@@ -229,19 +259,40 @@ export class Panel {
     );
     // Pan: shift or the middle button and drag; on a touch screen one finger.
     const begin = (event) => {
+      // A click after a drag is kept from us by the axes.
+      if (fingers.size === 0) this.dragged = false;
       if (!(event.pointerType === 'touch' || event.shiftKey || event.button === 1)) return;
+      if (event.pointerType === 'touch')
+        fingers.set(event.pointerId, event.clientX - over.getBoundingClientRect().left);
       from = { at: event.clientX, x: [...this.view.x] };
+      if (fingers.size === 2) {
+        pinched = places().map((at) => this.plot.posToVal(at, 'x'));
+        from = null;
+        this.dragged = true;
+      }
       over.setPointerCapture(event.pointerId);
     };
     over.addEventListener('pointerdown', begin);
     over.addEventListener(
       'mousedown',
       (event) => {
+        this.pressed = true;
+        this.withControl = event.ctrlKey || event.metaKey;
         if (event.shiftKey || event.button === 1) (event.stopImmediatePropagation(), event.preventDefault());
       },
       true,
     );
     over.addEventListener('pointermove', (event) => {
+      if (fingers.has(event.pointerId)) fingers.set(event.pointerId, event.clientX - over.getBoundingClientRect().left);
+      if (pinched && fingers.size === 2) {
+        // The values stay under the fingers.
+        const [left, right] = places();
+        if (right - left < 12) return;
+        const perPixel = (pinched[1] - pinched[0]) / (right - left);
+        const low = pinched[0] - left * perPixel;
+        this.view.show([low, low + over.clientWidth * perPixel]);
+        return;
+      }
       if (!from) return;
       const step = ((from.at - event.clientX) / over.clientWidth) * (from.x[1] - from.x[0]);
       if (Math.abs(from.at - event.clientX) > 3) this.dragged = true;
@@ -249,6 +300,8 @@ export class Panel {
     });
     for (const end of ['pointerup', 'pointercancel'])
       over.addEventListener(end, (event) => {
+        fingers.delete(event.pointerId);
+        if (fingers.size < 2) pinched = null;
         if (from && event.pointerType === 'touch' && !this.dragged) {
           const box = over.getBoundingClientRect();
           const found = this.options.hover?.({

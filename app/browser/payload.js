@@ -74,8 +74,8 @@ export class Table {
 }
 
 /// The header, with each table of each study as a Table.
-export async function readPayload(element) {
-  const buffer = await inflated(element.textContent.trim());
+export async function readPayload(text) {
+  const buffer = await inflated(text.trim());
   const length = new DataView(buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
   const body = 8 * Math.ceil((4 + length) / 8);

@@ -3,10 +3,11 @@ import { Panel, View } from './panel.js';
 import { rgb, shade, theme } from './theme.js';
 import { axisLabel, element, factorOf, number, unitText } from './words.js';
 import { classNames, classesOf } from './diagram.js';
-import { commandLine, rowDetails, shellWord, showDetails } from './details.js';
+import { commandLine, computedHistory, rowDetails, shellWord, showDetails } from './details.js';
 
 export class Plane {
-  constructor(study, host) {
+  /// @param memory  by remember(), of the same study when it had fewer cells
+  constructor(study, host, memory) {
     this.study = study;
     this.table = study.table('points.csv');
     this.classes = classesOf(this.table);
@@ -22,9 +23,23 @@ export class Plane {
     for (const column of this.table.columns)
       if (column.form !== 'words' && !['point', 'value', 'second_value', 'attractor'].includes(column.name))
         this.quantities.push(column);
-    this.quantity = this.quantities[0];
+    this.quantity = this.quantities.find(({ name }) => name === memory?.quantity) ?? this.quantities[0];
+    if (this.directions.includes(memory?.direction)) this.direction = memory.direction;
     this.index();
-    this.build(host);
+    this.build(host, memory);
+  }
+
+  /// What a reader has chosen. Cells are numbered by their values, of which there may be more later.
+  remember() {
+    const { x, full } = this.view;
+    return {
+      quantity: this.quantity.name,
+      direction: this.direction,
+      view: x[0] === full[0] && x[1] === full[1] ? null : x,
+      y: this.panel.y,
+      point: this.chosen >= 0 ? this.table.numbers('point')[this.cells[this.chosen]] : undefined,
+      details: this.details,
+    };
   }
 
   index() {
@@ -133,6 +148,7 @@ export class Plane {
       const found = Array.from(all.numbers('attractor')).indexOf(this.table.numbers('attractor')[row]);
       if (found >= 0) made.append(rowDetails(all, found, `Attractor ${all.numbers('attractor')[found]}`));
     }
+    if (this.study.live) made.append(...computedHistory(this.study, index));
     made.append(
       element('h4', { text: 'To compute more at this cell' }),
       commandLine(
@@ -165,13 +181,18 @@ export class Plane {
     actions[event.key]();
   }
 
-  build(host) {
+  build(host, memory) {
     this.view = new View(edges(this.xs));
-    this.details = element(
-      'section',
-      { class: 'details', 'aria-label': 'The chosen cell' },
-      element('p', { class: 'hint', text: 'Choose a cell: click on it, or use the arrow keys in the figure.' }),
-    );
+    if (memory?.view) this.view.x = [...memory.view];
+    if (memory?.point !== undefined)
+      this.chosen = this.cells.findIndex((row) => row >= 0 && this.table.numbers('point')[row] === memory.point);
+    this.details =
+      memory?.details ??
+      element(
+        'section',
+        { class: 'details', 'aria-label': 'The chosen cell' },
+        element('p', { class: 'hint', text: 'Choose a cell: click on it, or use the arrow keys in the figure.' }),
+      );
     const figure = element('div', {
       class: 'figure',
       tabIndex: 0,
@@ -188,7 +209,10 @@ export class Plane {
         },
       },
       this.quantities.map((column) =>
-        element('option', { text: column.meaning ? `${column.name} – ${column.meaning}`.slice(0, 100) : column.name }),
+        element('option', {
+          text: column.meaning ? `${column.name} – ${column.meaning}`.slice(0, 100) : column.name,
+          selected: column === this.quantity,
+        }),
       ),
     );
     const directions = element(
@@ -200,7 +224,7 @@ export class Plane {
           this.refresh();
         },
       },
-      this.directions.map((text) => element('option', { text })),
+      this.directions.map((text) => element('option', { text, selected: text === this.direction })),
     );
     const field = (text, control) => element('label', {}, element('span', { text }), control);
     host.append(
@@ -245,6 +269,7 @@ export class Plane {
       },
       pick: ({ cell }) => this.choose(cell),
     });
+    if (memory?.y) this.panel.y = memory.y;
     this.refresh();
   }
 

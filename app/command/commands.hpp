@@ -1,7 +1,9 @@
 // What the command line gives to commands, and the commands that are no kind of study. Each returns an ExitCode.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,8 +61,11 @@ struct Arguments {
   bool record = false;             ///< of assert and reproduce: what was found becomes what is expected
   bool no_time = false;            ///< of check: time is not measured
   bool quiet = false;              ///< part of another command: nothing on stdout
-  std::vector<std::string> words;  ///< of keys: what the user searches for
-  std::vector<std::filesystem::path> report_folders{};  ///< of report
+  bool figures = true;             ///< of sweep: PNG, SVG and their data are written
+  int port = 0;                    ///< of serve; 0: any that is free
+  std::function<void(std::size_t, std::size_t)> progress{};  ///< of studies of points: finished, in all; may be empty
+  std::vector<std::string> words;                            ///< of keys: what the user searches for
+  std::vector<std::filesystem::path> report_folders{};       ///< of report and serve
   PlotArguments plot{};
   InitArguments init{};
   Ranks* ranks = nullptr;
@@ -69,6 +74,7 @@ struct Arguments {
 int assert_command(const Arguments& arguments);
 int plot_command(const Arguments& arguments);
 int report_command(const Arguments& arguments);
+int serve_command(const Arguments& arguments);
 int keys_command(const Arguments& arguments);
 int init_command(const Arguments& arguments);
 int gear_command(const Arguments& arguments);

@@ -184,6 +184,13 @@ void add_report_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("--json", arguments.json, "print the name of the page as JSON");
 }
 
+void add_serve_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("FOLDER", arguments.report_folders, "folders of studies, to be shown on one page")->required();
+  command.add_option("--port", arguments.port, "port of 127.0.0.1; default: any that is free")
+      ->check(CLI::Range(1, 65535));
+  add_threads(command, arguments, "number of threads of a computation; the results do not depend on it");
+}
+
 void add_reproduce_options(CLI::App& command, Arguments& arguments) {
   command.get_option("INPUT")->description(
       "claims of a publication: a name in validation/, a folder, or a file (JSON)");
@@ -227,6 +234,8 @@ std::vector<Command> all_commands() {
        Takes::finished, add_plot_options},
       {"report", "write a page of studies for a browser, with diagrams to zoom and points to click; needs no network",
        report_command, Takes::finished, add_report_options},
+      {"serve", "show studies in a browser on this machine, while they grow, and compute regions of them finer",
+       serve_command, Takes::finished, add_serve_options},
       {"check", "validate an input; state its cost and an estimate of the time; write nothing", check_command,
        Takes::input, add_check_options},
       {"keys", "print the keys of the input with unit, default, bounds and meaning; with WORD only those that have it",

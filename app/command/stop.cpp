@@ -16,6 +16,8 @@ namespace epicyclic::app {
 namespace {
 
 std::atomic<bool> requested{false};
+/// Of the whole program, and not of one computation of `serve`.
+std::atomic<bool> ending{false};
 /// The message of a program that has to be ended, or nothing, and its code.
 std::atomic<const char*> words_at_the_end{"stopped before the end; re-run the same command to resume\n"};
 std::atomic<int> code_at_the_end{stopped_early};
@@ -43,13 +45,23 @@ void end_at_once(int /*signal*/) {
 }
 
 void request(int /*signal*/) {
+  requested = true;
   // Repeated signals do not put the end off.
-  if (!requested.exchange(true)) ::timer_settime(last_call, 0, &patience_left, nullptr);
+  if (!ending.exchange(true)) ::timer_settime(last_call, 0, &patience_left, nullptr);
 }
 
 }  // namespace
 
 const std::atomic<bool>& stop_requested() { return requested; }
+
+const std::atomic<bool>& end_requested() { return ending; }
+
+void cancel_computation() { requested = true; }
+
+void forget_cancellation() {
+  requested = false;
+  if (ending) requested = true;
+}
 
 void leave_at_once(int exit_code) noexcept {
   remove_unfinished_files();
@@ -86,7 +98,7 @@ void leave_ranks(int exit_code) {
   words_at_the_end = nullptr;
   code_at_the_end = exit_code;
   const itimerspec left = once_after(patience_for_mpi);
-  if (requested) ::timer_settime(last_call, 0, &left, nullptr);
+  if (ending) ::timer_settime(last_call, 0, &left, nullptr);
 }
 
 }  // namespace epicyclic::app

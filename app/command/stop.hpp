@@ -19,8 +19,16 @@
 
 namespace epicyclic::app {
 
-/// Set by the first SIGINT, SIGTERM or SIGHUP after stop_on_signals().
+/// Set by the first SIGINT, SIGTERM or SIGHUP after stop_on_signals(), and by cancel_computation().
 [[nodiscard]] const std::atomic<bool>& stop_requested();
+
+/// Set by the signals alone: the program ends.
+[[nodiscard]] const std::atomic<bool>& end_requested();
+
+/// For `serve`, which lives longer than what it computes: stops a command as a signal does, without a limit of time;
+/// then, after that command has returned, lets the next one run, unless a signal has come.
+void cancel_computation();
+void forget_cancellation();
 
 /// Work in progress was abandoned because of stop_requested(). The code that has a folder open catches this exception
 /// and leaves the folder in order. Anywhere else it ends the command with code 75 [failure_of()].

@@ -48,14 +48,17 @@ std::string html_text(std::string_view text) {
   return safe;
 }
 
-std::string report_page(std::string_view title, std::string_view version, std::string_view data) {
+std::string report_page(std::string_view title, std::string_view version, std::string_view data, PageUse use) {
   const std::string policy = "default-src 'none'; script-src " + hash_source(browser::plot) + " " +
                              hash_source(browser::program) + "; style-src " + hash_source(browser::style) +
-                             "; base-uri 'none'; form-action 'none'";
+                             "; base-uri 'none'; form-action 'none'" +
+                             (use == PageUse::served ? "; connect-src 'self'" : "");
+  const std::string_view requests = use == PageUse::served ? "The server on this machine computes and sends its data."
+                                                           : "This file is complete in itself: it makes no request.";
   const std::string safe_title = html_text(title);
   const std::map<std::string_view, std::string_view> parts = {
       {"POLICY", policy}, {"TITLE", safe_title},   {"VERSION", version},          {"STYLE", browser::style},
-      {"DATA", data},     {"PLOT", browser::plot}, {"PROGRAM", browser::program},
+      {"DATA", data},     {"PLOT", browser::plot}, {"PROGRAM", browser::program}, {"REQUESTS", requests},
   };
   // Once from left to right: what is put in is not read again.
   std::string text;

@@ -18,8 +18,12 @@ extern const std::string_view program;  ///< all modules as one script
 /// Text in place of markup.
 [[nodiscard]] std::string html_text(std::string_view text);
 
+/// A file that makes no request, or a page of `serve`, which sends requests to the program that it came from.
+enum class PageUse { file, served };
+
 /// @param title  text of any kind
 /// @param data   by ReportData::encoded()
-[[nodiscard]] std::string report_page(std::string_view title, std::string_view version, std::string_view data);
+[[nodiscard]] std::string report_page(std::string_view title, std::string_view version, std::string_view data,
+                                      PageUse use = PageUse::file);
 
 }  // namespace epicyclic::app

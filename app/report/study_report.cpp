@@ -28,9 +28,11 @@
 #include "input/keys.hpp"
 #include "input/study_kind.hpp"
 #include "input/study_model.hpp"
+#include "reports/gear_output.hpp"
 #include "reports/quantity_words.hpp"
 #include "reports/sweep_output.hpp"
 #include "store/branch_columns.hpp"
+#include "store/hdf5_file.hpp"
 #include "store/manifest.hpp"
 #include "store/point_columns.hpp"
 #include "store/point_store.hpp"
@@ -50,6 +52,10 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t table_bytes_max = std::size_t{6} << 20;
 /// Tables of at most so many rows keep their numbers to the last bit.
 constexpr std::size_t exact_rows_max = 4096;
+/// Of the multipliers of all orbits; of more orbits those beside special points are kept.
+constexpr std::size_t multiplier_bytes_max = std::size_t{3} << 20;
+/// A longer summary in words is left to its file.
+constexpr std::size_t summary_bytes_max = std::size_t{256} << 10;
 
 json run_of(const std::filesystem::path& folder) {
   std::error_code error;
@@ -256,7 +262,10 @@ class StudyReport {
     describe_study();
     add_points();
     add_tables();
+    add_modes();
     add_section();
+    add_multipliers();
+    add_summaries();
     if (tables_.empty())
       throw InputError(folder_.string() + (complete_ ? ": the study in it has no table"
                                                      : ": the study in it is not complete, and nothing of it can be "
@@ -303,8 +312,8 @@ class StudyReport {
     describe_axes();
     describe_tolerance();
     describe_symbols();
+    describe_drawing();
     if (!complete_) study_["progress"] = "no point is finished";
-    if (kind == "continue") leave_out("All multipliers of each orbit but the largest: results.h5 has them.");
     leave_out("Figures as PNG and SVG, the journal and results.h5: they are in the folder of the study.");
   }
 
@@ -377,6 +386,18 @@ class StudyReport {
                                                   recording.recorded_periods, recording.classification_periods)});
     }
     study_["tolerance"] = std::move(rows);
+  }
+
+  /// What a drawing of the stage needs: radii of base circles, in centre distances, and angles of the planets [deg].
+  void describe_drawing() {
+    const gear::Stage& stage = input_.study.stage;
+    const auto& sun = stage.sun.base_radius_mm;
+    const auto& planet = stage.planet.base_radius_mm;
+    const auto& ring = stage.ring.base_radius_mm;
+    if (!sun || !planet || !ring || !stage.centre_distance_mm) return;
+    const double a = *stage.centre_distance_mm;
+    study_["drawing"] = {
+        {"sun", *sun / a}, {"planet", *planet / a}, {"ring", *ring / a}, {"angles_deg", stage.planet_angles_deg()}};
   }
 
   void describe_symbols() {
@@ -522,6 +543,46 @@ class StudyReport {
                       exact_rows_max));
   }
 
+  /// `gear` has them as tables.
+  void add_modes() {
+    if (!complete_ || !input_.study.has_dynamics() || input_.study.kind() != "run") return;
+    add_csv("modes.csv", reports::modes_table(input_));
+    add_csv("mode_shapes.csv", reports::mode_shapes_table(input_));
+  }
+
+  /// Of orbits of branches, a row for each row of branch.csv.
+  void add_multipliers() {
+    if (!input_.study.has_dynamics() || input_.study.kind() != "continue" || !files_.contains("results.h5")) return;
+    require_unchanged({"results.h5"});
+    const store::Hdf5Dataset real = store::read_hdf5(folder_ / "results.h5", "/multipliers/real");
+    const store::Hdf5Dataset imaginary = store::read_hdf5(folder_ / "results.h5", "/multipliers/imaginary");
+    if (real.shape.size() != 2 || imaginary.shape != real.shape || real.values.empty()) return;
+    if (2 * sizeof(double) * real.values.size() > multiplier_bytes_max) {
+      leave_out("Multipliers of the orbits but the largest: results.h5 has them.");
+      return;
+    }
+    ReportTable table("multipliers", "", real.values.size());
+    table.add(data_.numbers({"real", "1", ""}, real.values, ReportData::Form::float64));
+    table.add(data_.numbers({"imaginary", "1", ""}, imaginary.values, ReportData::Form::float64));
+    tables_.push_back(std::move(table));
+    study_["multipliers_of_orbit"] = real.shape[1];
+  }
+
+  /// Pages in words that the command has written.
+  void add_summaries() {
+    json all = json::array();
+    for (const auto& [name, facts] : files_) {
+      if (!facts || !name.ends_with(".md") || name.find('/') != std::string::npos) continue;
+      require_unchanged({name});
+      std::string text = text_of(name);
+      if (text.size() > summary_bytes_max)
+        leave_out(name + ": it is too long");
+      else
+        all.push_back({{"name", name}, {"text", std::move(text)}});
+    }
+    if (!all.empty()) study_["summaries"] = std::move(all);
+  }
+
   // ---- Poincaré sections --------------------------------------------------------------------------------------------
 
   /// Rows of the section, column by column, and where those of each point begin.
@@ -561,25 +622,71 @@ class StudyReport {
                             counted(left, "columns", "column")));
   }
 
+  using Histories = std::array<std::vector<double>, studies::ShortHistory::names.size()>;
+
   void add_histories(const SweepRecords& records) {
     if (!records.any_history) return;
-    ReportTable table("histories", "", records.histories.front().size());
-    for (std::size_t k = 0; k < records.histories.size(); ++k) {
-      const std::string name(studies::ShortHistory::names[k]);
-      ReportColumn column = section_column(name);
-      if (name.starts_with("force_"))
-        column = {name, "N",
-                  fmt::format("force of {} mesh 1", name.starts_with("force_sp") ? "sun-planet" : "ring-planet")};
-      table.add(data_.numbers(column, records.histories[k], ReportData::Form::quantised));
-    }
-    tables_.push_back(std::move(table));
-    study_["history"] = {{"periods", SweepRecords::periods}, {"phases", SweepRecords::phases}};
+    add_history_table(records.histories);
     leave_out(fmt::format(
         "Histories of more than {} mesh periods, and of meshes of other planets: `epicyclic run --from` computes them.",
         SweepRecords::periods));
     if (records.points_of_histories < records.points())
       leave_out(fmt::format("Histories behind the first {}: they would make this file too large.",
                             counted(records.points_of_histories, "points", "point")));
+  }
+
+  void add_history_table(const Histories& histories) {
+    ReportTable table("histories", "", histories.front().size());
+    for (std::size_t k = 0; k < histories.size(); ++k) {
+      const std::string name(studies::ShortHistory::names[k]);
+      ReportColumn column = section_column(name);
+      if (name.starts_with("force_"))
+        column = {name, "N",
+                  fmt::format("force of {} mesh 1", name.starts_with("force_sp") ? "sun-planet" : "ring-planet")};
+      table.add(data_.numbers(column, histories[k], ReportData::Form::quantised));
+    }
+    tables_.push_back(std::move(table));
+    study_["history"] = {{"periods", SweepRecords::periods}, {"phases", SweepRecords::phases}};
+  }
+
+  /// Of orbits of branches, from their first states, in the order of branch.csv.
+  void add_orbit_histories(const std::vector<std::vector<double>>& states) {
+    if (states.empty() || identity_of(input_, "continue") != run_["identity"].get<std::string>()) return;
+    std::vector<double> values;
+    std::size_t at = std::string::npos;
+    if (!scan_csv(text_of("branch.csv"), [&](std::vector<std::string>& cells) {
+          if (at == std::string::npos) {
+            at = static_cast<std::size_t>(std::ranges::find(cells, "value") - cells.begin());
+            return;
+          }
+          double value = nan;
+          if (at < cells.size()) std::from_chars(cells[at].data(), cells[at].data() + cells[at].size(), value);
+          values.push_back(value);
+        }))
+      return;
+    const studies::ModelAt model_at = input::model_at(input_);
+    Histories histories;
+    const std::size_t most = SweepRecordLimits().histories / (2 * SweepRecords::history_rows * histories.size());
+    for (std::size_t k = 0; k < std::min({states.size(), values.size(), most}); ++k) {
+      stop_here_();
+      std::optional<studies::ShortHistory> history;
+      try {
+        const model::DynamicModel model = model_at(values[k]);
+        if (states[k].size() >= model.dimension)
+          history = studies::short_history(model, std::span(states[k]).first(model.dimension), input_.study.integrator,
+                                           SweepRecords::periods, SweepRecords::phases);
+      } catch (const SolverError&) {
+        history.reset();
+      }
+      for (std::size_t j = 0; j < histories.size(); ++j) {
+        if (history) histories[j].insert(histories[j].end(), history->columns[j].begin(), history->columns[j].end());
+        histories[j].resize((k + 1) * SweepRecords::history_rows, nan);
+      }
+    }
+    if (histories.front().empty()) return;
+    add_history_table(histories);
+    if (states.size() > most)
+      leave_out(fmt::format("Histories of orbits behind the first {}: they would make this file too large.", most));
   }
 
   void add_spectra(const SweepRecords& records) {
@@ -623,7 +730,8 @@ class StudyReport {
     std::optional<model::DynamicModel> model;
     if (input_.study.kind() == "run" && identity_of(input_, "run") == run_["identity"].get<std::string>())
       model = input::model_at(input_)(input_.study.mesh_frequency_ratio);
-    constexpr std::size_t keys = 2;  // point, index
+    const std::size_t keys = branches ? 3 : 2;  // branch, index, crossing; or point, index
+    std::vector<std::vector<double>> states;    // of branches: the first of each orbit
     const bool is_table = scan_csv(text_of("poincare.csv"), [&](std::vector<std::string>& cells) {
       if (at.empty()) {
         for (std::size_t k = 0; k < cells.size(); ++k)
@@ -637,6 +745,7 @@ class StudyReport {
         return;
       }
       const std::string of = branches ? cells[0] + ":" + cells[1] : cells[0];
+      const bool is_first = of != orbit;
       if (of != orbit && !orbit.empty()) section.starts.push_back(static_cast<double>(section.columns.front().size()));
       orbit = of;
       const auto number = [&](std::size_t k) {
@@ -645,6 +754,10 @@ class StudyReport {
         return value;
       };
       for (std::size_t k = 0; k < at.size(); ++k) section.columns[k].push_back(number(at[k]));
+      if (branches && is_first) {
+        std::vector<double>& state = states.emplace_back();
+        for (std::size_t k = keys; k < at.front(); ++k) state.push_back(number(k));
+      }
       if (!model) return;
       std::vector<double> state;
       for (std::size_t k = 0; k < model->dimension; ++k) state.push_back(number(keys + k));
@@ -656,6 +769,7 @@ class StudyReport {
     if (!is_table)
       throw store::DamagedData((folder_ / "poincare.csv").string() + ": is not a table that this program writes");
     if (!section.columns.empty()) section.starts.push_back(static_cast<double>(section.columns.front().size()));
+    if (branches) add_orbit_histories(states);
     return section;
   }
 

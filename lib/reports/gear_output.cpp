@@ -249,6 +249,18 @@ void require_finite_numbers(const input::LoadedInput& input) {
                    input::listed(names));
 }
 
+std::string modes_table(const input::LoadedInput& input) {
+  const gear::Stage& stage = input.study.stage;
+  const model::Scales scales = model::scales_of(stage);
+  const std::vector<model::Mode> modes = model::modes(stage, scales);
+  return modes_csv(stage, modes, scales, mode_ranges(input, modes));
+}
+
+std::string mode_shapes_table(const input::LoadedInput& input) {
+  const gear::Stage& stage = input.study.stage;
+  return mode_shapes_csv(stage, model::modes(stage, model::scales_of(stage)));
+}
+
 GearOutput write_gear_output(const std::filesystem::path& path, const input::LoadedInput& input) {
   const gear::Stage& stage = input.study.stage;
   const model::Scales scales = model::scales_of(stage);

@@ -24,6 +24,10 @@ struct GearOutput {
 /// @throws InputError that names what of geometry, operating point and modes is not a finite number
 void require_finite_numbers(const input::LoadedInput& input);
 
+/// Tables of the natural modes, as modes.csv and mode_shapes.csv have them.
+[[nodiscard]] std::string modes_table(const input::LoadedInput& input);
+[[nodiscard]] std::string mode_shapes_table(const input::LoadedInput& input);
+
 /// Writes everything to a folder; the operating point is the study's, Omega = 1 for a stage alone.
 /// @throws OutputError
 GearOutput write_gear_output(const std::filesystem::path& folder, const input::LoadedInput& input);

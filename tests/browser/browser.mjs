@@ -58,14 +58,17 @@ export class Browser {
   }
 
   /// A page with what goes wrong on it: errors of the console, exceptions, and requests for anything but itself.
-  async open(url, { width = 1440, height = 1000, dark = false } = {}) {
+  async open(url, { width = 1440, height = 1000, dark = false, calm = false } = {}) {
     const { targetId } = await this.send('Target.createTarget', { url: 'about:blank' });
     const { sessionId } = await this.send('Target.attachToTarget', { targetId, flatten: true });
     const page = new Page(this, sessionId, url);
     for (const domain of ['Page', 'Runtime', 'Log', 'Network']) await page.send(`${domain}.enable`);
     await page.send('Emulation.setDeviceMetricsOverride', { width, height, deviceScaleFactor: 1, mobile: width < 500 });
     await page.send('Emulation.setEmulatedMedia', {
-      features: [{ name: 'prefers-color-scheme', value: dark ? 'dark' : 'light' }],
+      features: [
+        { name: 'prefers-color-scheme', value: dark ? 'dark' : 'light' },
+        { name: 'prefers-reduced-motion', value: calm ? 'reduce' : 'no-preference' },
+      ],
     });
     await page.send('Page.navigate', { url });
     await page.until('document.body && document.body.dataset.state !== undefined');
@@ -95,7 +98,7 @@ export class Page {
         this.wrong.push(`console: ${JSON.stringify(params.args)}`);
       if (method === 'Log.entryAdded' && ['error', 'warning'].includes(params.entry.level))
         this.wrong.push(`log: ${params.entry.text}`);
-      if (method === 'Network.requestWillBeSent' && params.request.url !== url)
+      if (method === 'Network.requestWillBeSent' && !params.request.url.startsWith(url))
         this.wrong.push(`request: ${params.request.url.slice(0, 100)}`);
     });
   }

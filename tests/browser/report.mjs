@@ -35,6 +35,28 @@ const picture = (page) =>
   );
 const chosenValue = async (page) => Number((/= ([0-9.]+)/.exec(await details(page)) ?? [])[1]);
 
+/// Where points are drawn in the first panel, in colours of regimes: one place in each 40 pixels of the abscissa.
+const drawnPlaces = (page) =>
+  page.value(`(() => {
+    const canvas = document.querySelector('.panel canvas');
+    const [own, over] = [canvas, document.querySelector('.u-over')].map((node) => node.getBoundingClientRect());
+    const margin = 20;
+    const [width, height] = [over.width - 2 * margin, over.height - 2 * margin].map(Math.floor);
+    const copy = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
+    copy.drawImage(canvas, own.left - over.left - margin, own.top - over.top - margin);
+    const { data } = copy.getImageData(0, 0, width, height);
+    const names = ['--class0', '--class1', '--class2', '--class3', '--class4', '--class5'];
+    const colours = names.map((name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim());
+    const wanted = colours.map((text) => [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16)));
+    const found = new Map();
+    for (let at = 0; at < width * height; ++at) {
+      const [x, y] = [at % width, Math.floor(at / width)];
+      if (wanted.some((rgb) => rgb.every((value, k) => Math.abs(data[4 * at + k] - value) < 3)) && !found.has(Math.floor(x / 40)))
+        found.set(Math.floor(x / 40), [x + over.left + margin, y + over.top + margin]);
+    }
+    return [...found.values()];
+  })()`);
+
 try {
   {
     const page = await open('sweep.html');
@@ -78,6 +100,13 @@ try {
     await page.drag([left + 0.3 * width, top + 0.5 * height], [left + 0.6 * width, top + 0.5 * height]);
     const dragged = await picture(page);
     expect(dragged !== chosen, 'a drag does not zoom');
+    // 0.3 to 0.6 of the range have two values of Ω: a drag zooms once, and not once for each panel.
+    const columns = await drawnPlaces(page);
+    expect(columns.length >= 2 && columns.length <= 6, `after the drag points are drawn in ${columns.length} places`);
+    // The first click after it chooses.
+    await page.click(...columns[0]);
+    const clicked = await chosenValue(page);
+    expect(clicked > 2.15 && clicked < 2.23, `a click after the drag chooses ${clicked}`);
     await page.click(left + 0.1 * width, top + 0.97 * height, 2);
     expect((await picture(page)) !== dragged, 'a double click does not show all');
     await page.key('0', '0');
@@ -94,20 +123,7 @@ try {
     await page.key('0', '0');
 
     // Hover over the point that was chosen, and click.
-    const place = await page.value(`(() => {
-      const canvas = document.querySelector('.panel canvas');
-      const paint = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-      const over = document.querySelector('.u-over').getBoundingClientRect();
-      const own = canvas.getBoundingClientRect();
-      const colours = ['--class0', '--class1', '--class2', '--class3', '--class4'].map((name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim());
-      const wanted = colours.map((text) => [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16)));
-      for (let y = 20; y < over.height - 20; ++y)
-        for (let x = 40; x < over.width - 40; ++x) {
-          const at = 4 * (Math.round(y + over.top - own.top) * canvas.width + Math.round(x + over.left - own.left));
-          if (wanted.some((rgb) => rgb.every((value, k) => Math.abs(paint.data[at + k] - value) < 3))) return [x + over.left, y + over.top];
-        }
-      return null;
-    })()`);
+    const place = (await drawnPlaces(page))[0] ?? null;
     expect(place !== null, 'no point is drawn in the colour of a regime');
     if (place) {
       await page.mouse('mouseMoved', place[0] - 1, place[1]);
@@ -179,6 +195,24 @@ try {
     clean(page, `${name} at 390 px`);
   }
 
+  // Two fingers zoom.
+  {
+    const page = await open('sweep.html', { width: 390, height: 844 });
+    await page.send('Emulation.setTouchEmulationEnabled', { enabled: true, maxTouchPoints: 2 });
+    const before = await picture(page);
+    const [left, top, width, height] = await over(page);
+    const fingers = (a, b) =>
+      [a, b].map((part, id) => ({ x: left + part * width, y: top + 0.5 * height, id, radiusX: 2, radiusY: 2 }));
+    await page.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: fingers(0.4, 0.6).slice(0, 1) });
+    await page.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: fingers(0.4, 0.6) });
+    for (const step of [0.05, 0.1, 0.15])
+      await page.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: fingers(0.4 - step, 0.6 + step) });
+    await page.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+    await page.frame();
+    expect((await picture(page)) !== before, 'two fingers do not zoom');
+    clean(page, 'two fingers');
+  }
+
   // Branches over a sweep; cells; one point.
   {
     const page = await open('both.html');
@@ -191,6 +225,12 @@ try {
       text.includes('stable branch') && text.includes('PD: period doubling (flip)'),
       'what branches and special points are',
     );
+    expect(text.includes('Results in words (sweep.md)') && text.includes('Windows'), 'the sweep in words');
+    // An orbit of the branch: multipliers and a history.
+    await page.value("document.querySelector('.figure').focus()");
+    for (let k = 0; k < 4 && !(await details(page)).includes('of branch'); ++k) await page.key('ArrowDown');
+    for (const word of ['Floquet multipliers and the unit circle', 'Time history of 4 mesh periods', 'Stability'])
+      expect((await details(page)).includes(word), `the orbit has no ${word}`);
     clean(page, 'both.html');
   }
   for (const [name, word] of [
@@ -209,6 +249,10 @@ try {
   {
     const page = await open('run.html');
     const text = await page.value('document.body.innerText');
+    expect(
+      (await page.value("document.querySelectorAll('.modes canvas').length")) === 1,
+      'modes of the stage of a run',
+    );
     for (const word of ['Time history', 'Phase portrait', 'Poincaré section', 'The operating point'])
       expect(text.includes(word), `run.html: no ${word}`);
     expect((await page.value("document.querySelectorAll('.panel').length")) >= 3, 'panels of the run');
@@ -224,7 +268,23 @@ try {
     );
     await page.frame();
     expect((await picture(page)) !== before, 'another column is the same picture');
+    // The modes are animated until they are paused; where motion is unwanted they stand still.
+    const shape = "document.querySelector('.modes canvas').toDataURL()";
+    const moving = await page.value(shape);
+    await page.until(`${shape} !== ${JSON.stringify(moving)}`);
+    await page.value("document.querySelector('.modes button').click()");
+    await page.frame();
+    const still = await page.value(shape);
+    await page.frame();
+    expect((await page.value(shape)) === still, 'the modes do not pause');
+    await page.value(
+      "(() => { const choice = document.querySelector('.modes select'); choice.selectedIndex = 4; choice.dispatchEvent(new Event('change')); })()",
+    );
+    expect((await page.value(shape)) !== still, 'another mode is the same picture');
     clean(page, 'gear.html');
+    const quiet = await open('gear.html', { calm: true });
+    expect((await quiet.value("document.querySelector('.modes button').textContent")) === 'Play', 'reduced motion');
+    clean(quiet, 'reduced motion');
   }
   {
     const page = await open('unfinished.html');

@@ -83,10 +83,11 @@ WrittenPoints write_summary(const ComputedPoints& all) {
 }
 
 /// In the order in which they are handed out: the longest first, but for figures' data, which their pictures wait for.
-std::vector<ResultsPart> parts_of_sweep() {
+std::vector<ResultsPart> parts_of_sweep(bool figures) {
   std::vector<ResultsPart> parts = {{write_h5}};
   std::map<reports::SweepFigure, std::size_t> written_by;
   for (const reports::SweepFigure figure : reports::all_sweep_figures) {
+    if (!figures) break;
     written_by[figure] = parts.size();
     parts.push_back({[figure](const ComputedPoints& all) { return write_figure(all, figure); }});
   }
@@ -179,7 +180,7 @@ Expected time_of_sweep(const input::LoadedInput& input, const studies::SweepPlan
 }
 
 int run_sweep(const Arguments& arguments) {
-  return points_command(arguments, "sweep", "points", parts_of_sweep(), cross_check);
+  return points_command(arguments, "sweep", "points", parts_of_sweep(arguments.figures), cross_check);
 }
 
 }  // namespace
