@@ -18,6 +18,7 @@
 #include "failure.hpp"
 #include "folder.hpp"
 #include "grow.hpp"
+#include "host.hpp"
 #include "input/study_input.hpp"
 #include "input/study_model.hpp"
 #include "progress.hpp"
@@ -67,8 +68,9 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
   std::mutex counting;
   std::size_t elsewhere = 0;  // points of other ranks
   run.end_state = [&](std::size_t index) { return store.read_summary(index).end_state; };
-  run.point_finished = [&](const studies::PointResult& result) {
+  run.point_finished = [&, to = host()](const studies::PointResult& result) {
     store.append(result);
+    if (to != nullptr && to->point) to->point(result);
     const std::scoped_lock lock(counting);
     failed += computed(result) ? 0 : 1;
     progress.update(store.size() + elsewhere, failed);

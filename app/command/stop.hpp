@@ -19,7 +19,8 @@
 
 namespace epicyclic::app {
 
-/// Set by the first SIGINT, SIGTERM or SIGHUP after stop_on_signals().
+/// Set by the first SIGINT, SIGTERM or SIGHUP after stop_on_signals(); of a command with a host [host.hpp], by it.
+/// To be called on the thread of the command. Other threads read the reference.
 [[nodiscard]] const std::atomic<bool>& stop_requested();
 
 /// Work in progress was abandoned because of stop_requested(). The code that has a folder open catches this exception
@@ -44,7 +45,7 @@ constexpr std::chrono::milliseconds patience_for_mpi{300};
 /// To be called once, before anything is written. SIGHUP stays ignored where it is, as under nohup.
 void stop_on_signals(std::chrono::milliseconds until_the_end = patience);
 
-/// As by a signal. If the program has to be ended, it ends with this message and this code.
+/// As by a signal; of a command with a host without an end of the program. If the program has to be ended, it ends with this message and this code.
 /// @param last_words  a string with static lifetime
 void stop_soon(int exit_code, const char* last_words);
 

@@ -138,7 +138,7 @@ std::optional<studies::RunResult> compute(int threads, const model::DynamicModel
   RunProgress progress(options, journal.exponent_intervals());
   return studies::run_operating_point(
       model, recording, options, study.integrator,
-      {threads, [] { return !stop_requested().load(); },
+      {threads, [&stop = stop_requested()] { return !stop.load(); },
        [&](const char* what, int interval) { progress.see(what, static_cast<std::size_t>(interval)); },
        journal.memory()});
 }
