@@ -77,7 +77,7 @@ while IFS= read -r hit; do
   elif contains "$first" "${layers[@]}"; then
     # Claims are optional; Python has the equations of motion, and systems of its own.
     contains "$first" "${allowed[@]}" || [[ $first = claims && $place = "$source_dir"/app/command/claims/* ]] ||
-      [[ $first =~ ^(gear|model|analysis|integrate)$ && $place = "$source_dir"/app/python/binding/* ]] ||
+      [[ $first =~ ^(gear|model|analysis|integrate)$ && $place = "$source_dir"/app/binding/* ]] ||
       offence "$place" "$layer must not include $first: $included"
   elif [ "$style" = '"' ] && [ "$first" != "$layer" ]; then
     offence "$place" "no such layer: $included"

@@ -176,7 +176,8 @@ class System {
       options.lasting = std::max(1, options.budget / 2);
       options.longest_period = longest;
       options.residual = std::max(options.residual, 3.0 * tolerance);
-      const analysis::Strobe strobe = analysis::strobe(*flows.tight, state, {transient, 0, 1}, nothing, std::ref(go_on));
+      const analysis::Strobe strobe =
+          analysis::strobe(*flows.tight, state, {transient, 0, 1}, nothing, std::ref(go_on));
       if (strobe.evolution.reached())
         found = analysis::classify(*flows.windows, state, options, std::ref(go_on));
       else

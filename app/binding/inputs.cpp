@@ -1,9 +1,7 @@
 // Inputs as the program reads them, the numbers of their gears, and their equations of motion.
 
-#include <cmath>
 #include <cstddef>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,14 +14,12 @@
 #include "binding.hpp"
 #include "command/commands.hpp"
 #include "core/errors.hpp"
-#include "core/text.hpp"
 #include "gear/gear_set.hpp"
 #include "input/starter.hpp"
 #include "input/study_model.hpp"
-#include "model/dynamic_model.hpp"
+#include "rates.hpp"
 #include "reports/gear_output.hpp"
 #include "reports/gear_report.hpp"
-#include "studies/named_parameters.hpp"
 
 namespace epicyclic::binding {
 
@@ -35,38 +31,28 @@ std::string text_of(const nlohmann::json& json) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// The equations of motion at one operating point.
-class RightHandSide {
- public:
-  explicit RightHandSide(model::DynamicModel model) : model_(std::move(model)) {}
-
-  /// @param y  shape (dimension,) or (dimension, k)
-  [[nodiscard]] Array evaluate(double tau, const py::object& y) const {
-    const Array states = finite_array(y, "y");
-    if (states.ndim() < 1 || states.ndim() > 2 || states.shape(0) != static_cast<py::ssize_t>(model_.dimension))
-      throw InputError("y has the shape " + shape_text(states) + ", not (" + std::to_string(model_.dimension) +
-                       ",) or (" + std::to_string(model_.dimension) + ", k)");
-    if (!std::isfinite(tau)) throw InputError("tau is not a finite number");
-    const double period = model_.period;
-    const double reduced = std::fmod(model_.omega * tau, period);
-    const double s = reduced < 0.0 ? reduced + period : reduced;
-    const std::size_t segment = model::segment_at(model_.breakpoints, s);
-    const auto columns = states.ndim() == 2 ? static_cast<std::size_t>(states.shape(1)) : std::size_t{1};
-    Array rates(std::vector<py::ssize_t>(states.shape(), states.shape() + states.ndim()));
-    std::vector<double> state(model_.dimension), rate(model_.dimension);
-    for (std::size_t k = 0; k < columns; ++k) {
-      for (std::size_t i = 0; i < state.size(); ++i) state[i] = states.data()[i * columns + k];
-      model_.right_hand_side(segment, s, state.data(), rate.data());
-      for (std::size_t i = 0; i < state.size(); ++i) rates.mutable_data()[i * columns + k] = model_.omega * rate[i];
-    }
-    return rates;
+/// The equations of motion at one operating point, for arrays.
+/// @param y  shape (dimension,) or (dimension, k)
+Array evaluate(const Rates& rates, double tau, const py::object& y) {
+  const std::size_t n = rates.model().dimension;
+  const Array states = finite_array(y, "y");
+  if (states.ndim() < 1 || states.ndim() > 2 || states.shape(0) != static_cast<py::ssize_t>(n))
+    throw InputError("y has the shape " + shape_text(states) + ", not (" + std::to_string(n) + ",) or (" +
+                     std::to_string(n) + ", k)");
+  const auto columns = states.ndim() == 2 ? static_cast<std::size_t>(states.shape(1)) : std::size_t{1};
+  Array result(std::vector<py::ssize_t>(states.shape(), states.shape() + states.ndim()));
+  if (states.ndim() == 1) {
+    rates.evaluate(tau, states.data(), result.mutable_data());
+    return result;
   }
-
-  [[nodiscard]] const model::DynamicModel& model() const { return model_; }
-
- private:
-  model::DynamicModel model_;
-};
+  std::vector<double> state(n), rate(n);
+  for (std::size_t k = 0; k < columns; ++k) {
+    for (std::size_t i = 0; i < n; ++i) state[i] = states.data()[i * columns + k];
+    rates.evaluate(tau, state.data(), rate.data());
+    for (std::size_t i = 0; i < n; ++i) result.mutable_data()[i * columns + k] = rate[i];
+  }
+  return result;
+}
 
 /// An input, shared with what is made of it.
 class Input {
@@ -95,10 +81,7 @@ class Input {
                     py::arg("verdicts") = words.verdicts, py::arg("warnings") = words.warnings);
   }
 
-  [[nodiscard]] RightHandSide right_hand_side() const {
-    if (!input_->study.has_dynamics()) throw InputError("a stage without a study has no equations of motion");
-    return RightHandSide(input::model_at(input_, studies::speed_parameter)(input_->study.mesh_frequency_ratio));
-  }
+  [[nodiscard]] Rates rates() const { return Rates(input_); }
 
  private:
   std::shared_ptr<const input::LoadedInput> input_;
@@ -119,14 +102,14 @@ std::string drawn_study(const std::string& name, const app::InitArguments& given
 }  // namespace
 
 void add_inputs(py::module_& module) {
-  py::class_<RightHandSide>(module, "RightHandSide")
-      .def("__call__", &RightHandSide::evaluate, py::arg("tau"), py::arg("y"))
-      .def_property_readonly("names", [](const RightHandSide& r) { return r.model().state_names; })
-      .def_property_readonly("dimension", [](const RightHandSide& r) { return r.model().dimension; })
-      .def_property_readonly("mesh_frequency_ratio", [](const RightHandSide& r) { return r.model().omega; })
-      .def_property_readonly("omega_sn", [](const RightHandSide& r) { return r.model().scales.omega_sn; })
-      .def_property_readonly("start", [](const RightHandSide& r) { return array_of(r.model().default_start); })
-      .def_property_readonly("period", [](const RightHandSide& r) { return 2.0 * std::numbers::pi / r.model().omega; });
+  py::class_<Rates>(module, "RightHandSide")
+      .def("__call__", &evaluate, py::arg("tau"), py::arg("y"))
+      .def_property_readonly("names", [](const Rates& r) { return r.model().state_names; })
+      .def_property_readonly("dimension", [](const Rates& r) { return r.model().dimension; })
+      .def_property_readonly("mesh_frequency_ratio", [](const Rates& r) { return r.model().omega; })
+      .def_property_readonly("omega_sn", [](const Rates& r) { return r.model().scales.omega_sn; })
+      .def_property_readonly("start", [](const Rates& r) { return array_of(r.model().default_start); })
+      .def_property_readonly("period", &Rates::period);
 
   py::class_<Input>(module, "Input")
       .def_static(
@@ -146,7 +129,7 @@ void add_inputs(py::module_& module) {
       .def_property_readonly("has_dynamics", &Input::has_dynamics)
       .def("warnings", &Input::warnings)
       .def("gear", &Input::gear)
-      .def("right_hand_side", &Input::right_hand_side);
+      .def("right_hand_side", &Input::rates);
 
   py::class_<app::InitArguments>(module, "Drawing")
       .def(py::init<>())
