@@ -323,11 +323,13 @@ class System {
  private:
   [[nodiscard]] double period_of(const std::vector<double>& values) const {
     const py::gil_scoped_acquire gil;
-    double period = 0;
-    if (PyCallable_Check(period_.ptr()) != 0)
-      period = period_(array_of(values)).cast<double>();
-    else
-      period = period_.cast<double>();
+    const bool is_function = PyCallable_Check(period_.ptr()) != 0;
+    const py::object given = is_function ? period_(array_of(values)) : period_;
+    const double period = PyFloat_AsDouble(given.ptr());
+    if (PyErr_Occurred() != nullptr) {
+      PyErr_Clear();
+      throw InputError("the period is no number");
+    }
     if (!(period > 0.0) || !std::isfinite(period))
       throw InputError("the period is " + std::to_string(period) + ", must be a finite number > 0");
     return period;

@@ -102,14 +102,14 @@ class Stage:
             Name of the stage.
         """
         drawing = core().Drawing()
-        drawing.teeth = [int(z) for z in teeth]
+        drawing.teeth = [int(z) for z in _numbers(teeth, "teeth")]
         if len(drawing.teeth) not in (2, 3):
             raise InputError(f"teeth has {len(drawing.teeth)} numbers, must be of sun, planet and, if given, ring")
-        drawing.profile_shifts = [float(x) for x in profile_shifts]
+        drawing.profile_shifts = _numbers(profile_shifts, "profile_shifts")
         if len(drawing.profile_shifts) not in (0, 3):
             raise InputError("profile_shifts must have three numbers: of sun, planet and ring")
-        drawing.angles_deg = [float(x) for x in angles_deg]
-        drawing.planets = planets
+        drawing.angles_deg = _numbers(angles_deg, "angles_deg")
+        drawing.planets = None if planets is None else int(_numbers([planets], "planets")[0])
         for key, value in (
             ("module_mm", module_mm),
             ("pressure_angle_deg", pressure_angle_deg),
@@ -117,7 +117,7 @@ class Stage:
             ("torque_Nm", torque_Nm),
             ("speed_rpm", speed_rpm),
         ):
-            setattr(drawing, key, None if value is None else float(value))
+            setattr(drawing, key, None if value is None else _numbers([value], key)[0])
         return cls._of(_parsed(json.loads(drawing.study(name))).resolved)
 
     def replace(self, values: Mapping[str, Any]) -> Stage:
@@ -134,6 +134,9 @@ class Stage:
             If a pointer is not known, or the stage is not valid with these values.
         """
         document = self.to_dict()
+        for pointer in values:
+            if not isinstance(pointer, str):
+                raise TypeError(f"{pointer!r} is no JSON pointer")
         if "stage" not in document and any(not p.startswith("/stage") for p in values):
             document = {"stage": document, "study": {"kind": "run"}}
         return Stage._of(_parsed(document, [f"{p}={json.dumps(_plain(v))}" for p, v in values.items()]).resolved)
@@ -412,6 +415,19 @@ def _raise_without_file(error: InputError) -> NoReturn:
     """Raise the error with problems that name no file: there is none."""
     kept = [p._replace(file="", line=0) for p in error.problems]
     raise InputError("\n".join(p.text() for p in kept) if kept else str(error), kept) from None
+
+
+def _numbers(values: Any, name: str) -> List[float]:
+    """Return numbers of a drawing."""
+    try:
+        numbers = [float(value) for value in values]
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name} is {values!r}, which is no list of numbers") from None
+    if name in ("teeth", "planets") and not all(abs(z) < 10**6 and z == int(z) for z in numbers):
+        raise InputError(f"{name} is {values!r}, must be integers")
+    if not all(abs(x) < float("inf") for x in numbers):
+        raise InputError(f"{name} has numbers that are not finite")
+    return numbers
 
 
 def _plain(value: Any) -> Any:
