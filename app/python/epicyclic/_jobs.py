@@ -22,7 +22,7 @@ ProgressFunction = Callable[[str, int, Optional[int], int], None]
 
 _log = logging.getLogger("epicyclic")
 
-#: Seconds between two looks at signals, messages and progress.
+#: Seconds between two checks of signals, messages and progress.
 _INTERVAL = 0.05
 
 _STOPPED = 75

@@ -209,6 +209,8 @@ class System:
             period = _finite(period, "period")
             if period <= 0:
                 raise InputError(f"period is {period}, must be > 0")
+        if not isinstance(params, Mapping):
+            raise InputError(f"params is {params!r}, must be a mapping of names to numbers")
         self.n = int(n)
         self.params: Dict[str, float] = {str(k): _finite(v, f"params[{k!r}]") for k, v in params.items()}
         self.period = period
