@@ -274,6 +274,7 @@ class System {
     const std::vector<double> values = finite_vector(p, "params", parameters_);
     if (which >= parameters_) throw InputError("no such parameter");
     std::vector<analysis::Branch> all;
+    std::vector<std::vector<double>> points;
     std::string why_not;
     {
       const py::gil_scoped_release release;
@@ -312,11 +313,12 @@ class System {
         if (first.found) tree.start(first.orbit);
         while (tree.advance()) (void)go_on();
         all = tree.branches();
+        for (const analysis::Branch& branch : all) points.push_back(points_of(branch, go_on));
       }
     }
     if (!why_not.empty()) throw DomainError("no orbit to start from: " + why_not);
     py::list result;
-    for (const analysis::Branch& branch : all) result.append(described(branch));
+    for (std::size_t k = 0; k < all.size(); ++k) result.append(described(all[k], points[k]));
     return result;
   }
 
@@ -412,15 +414,29 @@ class System {
     return member;
   }
 
-  [[nodiscard]] py::dict described(const analysis::Branch& branch) const {
-    std::vector<double> value, states;
+  /// The states of each orbit at the beginning of each period, orbit by orbit.
+  [[nodiscard]] static std::vector<double> points_of(const analysis::Branch& branch, Interrupts& go_on) {
+    std::vector<double> points;
+    for (const analysis::BranchOrbit& orbit : branch.orbits) {
+      std::vector<double> state(orbit.at.states.col(0).begin(), orbit.at.states.col(0).end());
+      const auto flow = branch.family.period > 1 ? branch.family.flows(orbit.at.value) : nullptr;
+      for (int k = 0; k < branch.family.period; ++k) {
+        if (k > 0 && !flow->evolve(state, 0.0, circle).reached()) std::ranges::fill(state, std::nan(""));
+        points.insert(points.end(), state.begin(), state.end());
+      }
+      (void)go_on();
+    }
+    return points;
+  }
+
+  [[nodiscard]] py::dict described(const analysis::Branch& branch, const std::vector<double>& points) const {
+    std::vector<double> value;
     py::list multipliers, special;
     const auto add_state = [&](std::vector<double>& out, const analysis::BranchOrbit& orbit) {
       for (std::size_t i = 0; i < n_; ++i) out.push_back(orbit.at.states(static_cast<Eigen::Index>(i), 0));
     };
     for (const analysis::BranchOrbit& orbit : branch.orbits) {
       value.push_back(orbit.at.value);
-      add_state(states, orbit);
       multipliers.append(complex_list(analysis::multipliers_of(branch.family, orbit.monodromy)));
     }
     for (const analysis::SpecialPoint& point : branch.special) {
@@ -438,7 +454,9 @@ class System {
     py::dict result;
     result["period"] = branch.family.period;
     result["value"] = array_of(value);
-    result["states"] = matrix_of(states, n_);
+    result["states"] = Array({static_cast<py::ssize_t>(value.size()), static_cast<py::ssize_t>(branch.family.period),
+                              static_cast<py::ssize_t>(n_)},
+                             points.data());
     result["multipliers"] = std::move(multipliers);
     result["special"] = std::move(special);
     result["ends"] = py::make_tuple(branch.first.message, branch.last.message);

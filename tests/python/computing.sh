@@ -24,4 +24,14 @@ source "$here/results.bash"
 blocks_of "$source_dir/docs/howto/compute_in_python.md" python >example.py
 [ "$(grep -c . example.py)" -ge 10 ] || fail "the page has no example"
 "$python" -W ignore example.py >log 2>&1 || fail "the examples of the page: $(tail -n 5 log)"
+
+# The tutorial, with few points and the first branch.
+tutorial=$source_dir/docs/tutorials/your_own_oscillator.md
+blocks_of "$tutorial" c >duffing.c
+"${CC:-cc}" -O2 -shared -fPIC -o duffing.so duffing.c -lm
+blocks_of "$tutorial" python | sed 's/0.5, 151)/0.5, 3)/; s/transient=200/transient=20/; s/largest_period=4/largest_period=1/' >tutorial.py
+if "$python" -c 'import matplotlib' 2>/dev/null; then
+  "$python" tutorial.py >log 2>&1 || fail "the tutorial: $(tail -n 5 log)"
+  grep -q '^1 flip 0.2655817861 ' log || fail "the tutorial locates another doubling: $(<log)"
+fi
 finish

@@ -284,7 +284,7 @@ class Systems(unittest.TestCase):
             at = min(flips, key=lambda s: abs(s.value - published))
             self.assertLess(at.error_bound, 1e-8)
             self.assertLess(abs(at.value - published), 1e-8)
-            self.assertEqual(branch.states.shape, (len(branch.value), 2))
+            self.assertEqual(branch.states.shape, (len(branch.value), branch.period, 2))
             self.assertEqual(branch.multipliers.shape, (len(branch.value), 2))
 
     def test_doublings(self):

@@ -155,7 +155,7 @@ class Branch:
     value
         Values of the parameter: shape (orbits,).
     states
-        States at t = 0: shape (orbits, n).
+        States at the beginning of each period: shape (orbits, period, n).
     multipliers
         Floquet multipliers: complex, shape (orbits, n).
     special
