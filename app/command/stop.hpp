@@ -9,6 +9,9 @@
 // main() installs the handlers for each command that writes, before it begins. The signal itself ends a command that
 // writes nothing.
 //
+// The host of a command [host.hpp] stops it in place of a signal. So stop_requested() has to be called on the thread of
+// the command. Its other threads read the reference.
+//
 // Ranks have one second for all of it. Open MPI's mpirun passes a SIGTERM or SIGINT on after a second. From then on it
 // answers no rank, so that MPI's own end waits for nothing. It kills the ranks a second later.
 #pragma once
@@ -19,8 +22,7 @@
 
 namespace epicyclic::app {
 
-/// Set by the first SIGINT, SIGTERM or SIGHUP after stop_on_signals(); of a command with a host [host.hpp], by it.
-/// To be called on the thread of the command. Other threads read the reference.
+/// Set by the first SIGINT, SIGTERM or SIGHUP after stop_on_signals().
 [[nodiscard]] const std::atomic<bool>& stop_requested();
 
 /// Work in progress was abandoned because of stop_requested(). The code that has a folder open catches this exception

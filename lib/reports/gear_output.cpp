@@ -249,25 +249,6 @@ void require_finite_numbers(const input::LoadedInput& input) {
                    input::listed(names));
 }
 
-GearOutput gear_words(const input::LoadedInput& input) {
-  const gear::Stage& stage = input.study.stage;
-  const model::Scales scales = model::scales_of(stage);
-  const std::vector<model::Mode> modes = model::modes(stage, scales);
-  const std::vector<ModeRange> ranges = mode_ranges(input, modes);
-  const bool moves = gear::problems_for_dynamics(stage).empty();
-  GearOutput out;
-  out.warnings = input::gear_warnings(input);
-  out.modes = modes_csv(stage, modes, scales, ranges);
-  if (stage.catalogue) {
-    out.verdicts = contact_verdicts(gear::make_gear_set(stage), stage);
-    if (moves) out.verdicts.insert(out.verdicts.begin(), operation_verdict(stage, input.study.mesh_frequency_ratio));
-    for (const std::string& line : input::stiffness_notes(input)) out.verdicts.push_back(line + ".");
-  }
-  if (moves) out.verdicts.push_back("The " + error_words(stage, input.study.mesh_frequency_ratio) + ".");
-  if (!ranges.empty()) out.verdicts.push_back(range_words(ranges));
-  return out;
-}
-
 GearOutput write_gear_output(const std::filesystem::path& path, const input::LoadedInput& input) {
   const gear::Stage& stage = input.study.stage;
   const model::Scales scales = model::scales_of(stage);
@@ -310,6 +291,25 @@ GearOutput write_gear_output(const std::filesystem::path& path, const input::Loa
   page.figures = out.figures;
   page.files = folder.files();
   folder.write("gear.md", gear_page(page, input, modes, scales));
+  return out;
+}
+
+GearOutput gear_words(const input::LoadedInput& input) {
+  const gear::Stage& stage = input.study.stage;
+  const model::Scales scales = model::scales_of(stage);
+  const std::vector<model::Mode> modes = model::modes(stage, scales);
+  const std::vector<ModeRange> ranges = mode_ranges(input, modes);
+  const bool moves = gear::problems_for_dynamics(stage).empty();
+  GearOutput out;
+  out.warnings = input::gear_warnings(input);
+  out.modes = modes_csv(stage, modes, scales, ranges);
+  if (stage.catalogue) {
+    out.verdicts = contact_verdicts(gear::make_gear_set(stage), stage);
+    if (moves) out.verdicts.insert(out.verdicts.begin(), operation_verdict(stage, input.study.mesh_frequency_ratio));
+    for (const std::string& line : input::stiffness_notes(input)) out.verdicts.push_back(line + ".");
+  }
+  if (moves) out.verdicts.push_back("The " + error_words(stage, input.study.mesh_frequency_ratio) + ".");
+  if (!ranges.empty()) out.verdicts.push_back(range_words(ranges));
   return out;
 }
 

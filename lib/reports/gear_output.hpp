@@ -24,11 +24,11 @@ struct GearOutput {
 /// @throws InputError that names what of geometry, operating point and modes is not a finite number
 void require_finite_numbers(const input::LoadedInput& input);
 
-/// Modes, verdicts and warnings without the figures and files, and without what only they need.
-[[nodiscard]] GearOutput gear_words(const input::LoadedInput& input);
-
 /// Writes everything to a folder; the operating point is the study's, Omega = 1 for a stage alone.
 /// @throws OutputError
 GearOutput write_gear_output(const std::filesystem::path& folder, const input::LoadedInput& input);
+
+/// Modes, verdicts and warnings without the figures and files, and without what only they need.
+[[nodiscard]] GearOutput gear_words(const input::LoadedInput& input);
 
 }  // namespace epicyclic::reports

@@ -19,12 +19,6 @@ for file in share/epicyclic/input.schema.json share/epicyclic/octave/+epicyclic/
   lib/python3/dist-packages/epicyclic/__init__.py; do
   [ -s "$temporary/prefix/$file" ] || { echo "FAILED: $file is not installed"; exit 1; }
 done
-# The module for Python, if it was built.
-for module in "$build_dir"/python/epicyclic/_core*.so; do
-  [ -e "$module" ] || continue
-  PYTHONPATH=$temporary/prefix/lib/python3/dist-packages /usr/bin/python3 -c 'import epicyclic._core' ||
-    { echo "FAILED: the installed module does not load"; exit 1; }
-done
 cmake -G "$generator" -S "$package_dir" -B "$temporary/build" -D CMAKE_PREFIX_PATH="$temporary/prefix" \
   -D CMAKE_CXX_COMPILER="$cxx" -D CMAKE_CXX_FLAGS="$cxx_flags" -D CMAKE_FIND_USE_PACKAGE_REGISTRY=OFF
 cmake --build "$temporary/build"
@@ -36,3 +30,9 @@ if grep -qw avx2 /proc/cpuinfo; then
   cmake --build "$temporary/build"
   "$temporary/build/branches"
 fi
+# The module for Python, if it was built.
+for module in "$build_dir"/python/epicyclic/_core*.so; do
+  [ -e "$module" ] || continue
+  PYTHONPATH=$temporary/prefix/lib/python3/dist-packages /usr/bin/python3 -c 'import epicyclic._core' ||
+    { echo "FAILED: the installed module does not load"; exit 1; }
+done
