@@ -53,8 +53,8 @@ class SignalsBlocked {
 
 class Job {
  public:
-  /// @param rows  points are kept until they are taken
-  Job(std::string command, app::Arguments arguments, bool rows)
+  /// @param rows  points that are kept until they are taken; after as many the command stops
+  Job(std::string command, app::Arguments arguments, std::size_t rows)
       : command_(std::move(command)), arguments_(std::move(arguments)) {
     run_ = command_ == "gear" ? &app::gear_command : app::command_of(command_).run;
     const auto keep = [this](std::vector<std::string>& all) {
@@ -70,10 +70,11 @@ class Job {
       const std::scoped_lock lock(mutex_);
       progress_.emplace(label, state);
     };
-    if (rows)
-      host_.point = [this](const studies::PointResult& point) {
+    if (rows > 0)
+      host_.point = [this, rows](const studies::PointResult& point) {
         const std::scoped_lock lock(mutex_);
         points_.push_back(point);
+        if (++seen_ >= rows) host_.stop = true;
       };
     const SignalsBlocked blocked;
     worker_ = std::thread([this] { work(); });
@@ -174,13 +175,14 @@ class Job {
   std::vector<std::string> words_, data_, warnings_;
   std::optional<std::pair<std::string, app::ProgressState>> progress_;
   std::vector<studies::PointSummary> points_;
+  std::size_t seen_ = 0;
   std::vector<store::PointColumn> columns_;
   std::thread worker_;
 };
 
 std::unique_ptr<Job> make_job(const std::string& command, const std::string& input, const std::string& output,
                               int threads, const std::vector<std::string>& from, const std::string& grow,
-                              const std::string& against, bool rows) {
+                              const std::string& against, std::size_t rows) {
   app::Arguments arguments;
   arguments.input = input;
   arguments.output = output;

@@ -258,7 +258,8 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
                   noun);
     return stopped_early;
   };
-  if (store.size() < plan.points.size()) return stopped();
+  // A host waits for the end, so that results are not begun.
+  if (store.size() < plan.points.size() || (host() != nullptr && stop_requested())) return stopped();
 
   folder.require_there();
   const ComputedPoints computed_points{folder.path(), input, first_model, session.resolved(), store.source()};
@@ -268,7 +269,11 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
     written = std::move(*first);
   }
   folder.require_there();
-  write_results(arguments, parts, computed_points, leader, written);
+  try {
+    write_results(arguments, parts, computed_points, leader, written);
+  } catch (const Stopped&) {
+    return stopped();
+  }
   folder.add(written.files);
   undrawn = report_undrawn(written.figures);
   close_run(store::RunState::complete);

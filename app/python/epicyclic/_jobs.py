@@ -51,7 +51,7 @@ class Job:
     origins, grow, against
         Folders for the options of that name; ``origins`` are those of ``--from``.
     rows
-        Whether points are taken as they are computed.
+        Points that are taken as they are computed; after as many the command stops.
     """
 
     def __init__(
@@ -64,7 +64,7 @@ class Job:
         origins: Sequence[str] = (),
         grow: Union[None, str, Path] = None,
         against: Union[None, str, Path] = None,
-        rows: bool = False,
+        rows: int = 0,
     ) -> None:
         count = own_threads() if threads is None else threads
         if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count <= 4096:

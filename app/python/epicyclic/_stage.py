@@ -22,6 +22,10 @@ Progress = Union[None, bool, ProgressFunction]
 _NAME = "python"
 
 
+#: More points than any study has.
+_ALL = 2**62
+
+
 class Stage:
     """A stage with its operating point and, if it was loaded from one, a study. It does not change.
 
@@ -263,7 +267,7 @@ class Stage:
         The order is that of the computation; ``point`` is the row of the table. Leaving the loop stops the computation.
         Arguments as of ``sweep``. Points that an earlier call has left in the folder are not repeated.
         """
-        return self._job("sweep", out, threads, progress, keys, rows=True).rows()
+        return self._job("sweep", out, threads, progress, keys, rows=_ALL).rows()
 
     def point(self, *, threads: int = 1, **keys: Any) -> Dict[str, Any]:
         """Compute one point of a sweep, and nothing else.
@@ -287,7 +291,7 @@ class Stage:
             keys.update({"from": value, "to": value, "points": 1})
         keys.setdefault("directions", ["up"])
         keys.setdefault("crosscheck", {"points": 0})
-        rows = cast(Any, self.sweep_stream(threads=threads, **keys))
+        rows = cast(Any, self._job("sweep", None, threads, None, keys, rows=1).rows())
         try:
             return cast(Dict[str, Any], next(rows))
         except StopIteration:
