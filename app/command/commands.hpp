@@ -8,6 +8,10 @@
 #include <string>
 #include <vector>
 
+namespace epicyclic::input {
+struct Drawing;
+}
+
 namespace epicyclic::app {
 
 class Ranks;
@@ -77,6 +81,8 @@ int report_command(const Arguments& arguments);
 int serve_command(const Arguments& arguments);
 int keys_command(const Arguments& arguments);
 int init_command(const Arguments& arguments);
+/// What the command line gives to `init`; the name is that of its folder.
+[[nodiscard]] input::Drawing drawing_of(const Arguments& arguments);
 int gear_command(const Arguments& arguments);
 int check_command(const Arguments& arguments);
 int inputs_command(const Arguments& arguments);

@@ -32,6 +32,8 @@ constexpr const char* stage_name = "stage.json";
 constexpr const char* sweep_name = "speed.json";
 constexpr const char* run_name = "point.json";
 
+}  // namespace
+
 input::Drawing drawing_of(const Arguments& arguments) {
   const InitArguments& given = arguments.init;
   input::Drawing d;
@@ -61,8 +63,6 @@ input::Drawing drawing_of(const Arguments& arguments) {
   d.speed_rpm = given.speed_rpm;
   return d;
 }
-
-}  // namespace
 
 int init_command(const Arguments& arguments) {
   const fs::path& folder = arguments.output;

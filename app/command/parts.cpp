@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "host.hpp"
+#include "stop.hpp"
 #include "studies/parallel_for.hpp"
 
 namespace epicyclic::app {
@@ -47,10 +49,12 @@ void PartQueue::close() {
 
 void write_parts(const std::vector<ResultsPart>& parts, const ComputedPoints& computed, int threads, PartQueue& queue,
                  std::vector<WrittenPoints>& written) {
+  const Host* waiting = host();  // for the end of this command, which has no other limit of time
   const auto most = std::min(parts.size(), static_cast<std::size_t>(std::max(1, threads)));
   studies::parallel_for(most, threads, nullptr, [&](std::size_t /*thread*/) {
     try {
       while (const auto part = queue.take()) {
+        if (waiting != nullptr && waiting->stop) throw Stopped();
         written.at(*part) = parts[*part].write(computed);
         queue.ended(*part);
       }

@@ -75,6 +75,7 @@ class PartQueue {
 
 /// Takes parts on several threads until there are none.
 /// @param written  of all parts; those taken here are stored
+/// @throws Stopped if the host of the command stops it [host.hpp]
 /// @throws the first exception of a part, after the parts in progress have ended; the queue is then closed
 void write_parts(const std::vector<ResultsPart>& parts, const ComputedPoints& computed, int threads, PartQueue& queue,
                  std::vector<WrittenPoints>& written);

@@ -19,6 +19,7 @@
 #include "failure.hpp"
 #include "folder.hpp"
 #include "grow.hpp"
+#include "host.hpp"
 #include "input/study_input.hpp"
 #include "input/study_model.hpp"
 #include "progress.hpp"
@@ -69,8 +70,9 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
   std::mutex counting;
   std::size_t elsewhere = 0;  // points of other ranks
   run.end_state = [&](std::size_t index) { return store.read_summary(index).end_state; };
-  run.point_finished = [&](const studies::PointResult& result) {
+  run.point_finished = [&, to = host()](const studies::PointResult& result) {
     store.append(result);
+    if (to != nullptr && to->point) to->point(result);
     const std::scoped_lock lock(counting);
     failed += computed(result) ? 0 : 1;
     progress.update(store.size() + elsewhere, failed);
@@ -266,7 +268,8 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
                   noun);
     return stopped_early;
   };
-  if (store.size() < plan.points.size()) return stopped();
+  // A host waits for the end, so that results are not begun.
+  if (store.size() < plan.points.size() || (host() != nullptr && stop_requested())) return stopped();
 
   folder.require_there();
   const ComputedPoints computed_points{folder.path(), input, first_model, session.resolved(), store.source()};
@@ -276,7 +279,11 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
     written = std::move(*first);
   }
   folder.require_there();
-  write_results(arguments, parts, computed_points, leader, written);
+  try {
+    write_results(arguments, parts, computed_points, leader, written);
+  } catch (const Stopped&) {
+    return stopped();
+  }
   folder.add(written.files);
   undrawn = report_undrawn(written.figures);
   close_run(store::RunState::complete);

@@ -79,7 +79,7 @@ Progress::Progress(std::string label, std::size_t total, std::size_t already_don
     : label_(std::move(label)),
       already_done_(already_done),
       descriptor_(descriptor),
-      terminal_(is_terminal(descriptor)),
+      terminal_(host_ != nullptr || is_terminal(descriptor)),
       start_(Clock::now()),
       last_drawn_(start_),
       longest_silence_(terminal_ ? Clock::duration(terminal_silence) : Clock::duration(plain_interval)) {
@@ -138,6 +138,10 @@ void Progress::draw(Clock::time_point now, bool last) {
   last_drawn_ = now;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   state_.rate = elapsed > 0 ? static_cast<double>(state_.done - already_done_) / elapsed : 0;
+  if (host_ != nullptr) {
+    if (host_->progress) host_->progress(label_, state_);
+    return;
+  }
   std::string line;
   if (terminal_) {
     const int width = terminal_width(descriptor_) - 1;

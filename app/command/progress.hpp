@@ -1,8 +1,8 @@
 // Progress of a long computation, on stderr (stdout belongs to the data).
 //
 // On a terminal: one line, redrawn at most ten times a second. Elsewhere (a log file, a batch system): a plain line a
-// minute and one at the end. A thread writes the line when it is due, so that it comes also while nothing is finished:
-// whoever reads a log sees that the program lives.
+// minute and one at the end. A host [host.hpp] receives the state in place of a line. A thread writes the line when it
+// is due, so that it comes also while nothing is finished: whoever reads a log sees that the program lives.
 #pragma once
 
 #include <chrono>
@@ -11,6 +11,8 @@
 #include <mutex>
 #include <string>
 #include <thread>
+
+#include "host.hpp"
 
 namespace epicyclic::app {
 
@@ -58,6 +60,7 @@ class Progress {
   void draw(Clock::time_point now, bool last);
   void draw_when_due();
 
+  Host* host_ = host();  ///< receives the state in place of a stream
   std::string label_;
   std::size_t already_done_;
   int descriptor_;

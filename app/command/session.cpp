@@ -4,6 +4,7 @@
 
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
+#include "host.hpp"
 #include "input/study_model.hpp"
 #include "store/identity.hpp"
 #include "streams.hpp"
@@ -15,7 +16,13 @@ std::string identity_of(const input::LoadedInput& input, std::string_view comman
 }
 
 void print_warnings(const input::LoadedInput& input) {
-  for (const std::string& warning : input::warnings(input)) print_message("{}\n", warning);
+  const Host* to = host();
+  for (const std::string& warning : input::warnings(input)) {
+    if (to != nullptr && to->warning)
+      to->warning(warning);
+    else
+      print_message("{}\n", warning);
+  }
 }
 
 Session::Session(const Arguments& arguments, const input::LoadedInput& input, std::string identity, int threads,

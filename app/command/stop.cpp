@@ -10,6 +10,7 @@
 
 #include "commands.hpp"
 #include "core/atomic_file.hpp"
+#include "host.hpp"
 
 namespace epicyclic::app {
 
@@ -52,7 +53,10 @@ void request(int /*signal*/) {
 
 }  // namespace
 
-const std::atomic<bool>& stop_requested() { return requested; }
+const std::atomic<bool>& stop_requested() {
+  const Host* of = host();
+  return of != nullptr ? of->stop : requested;
+}
 
 const std::atomic<bool>& end_requested() { return ending; }
 
@@ -72,7 +76,7 @@ void leave_at_once(int exit_code) noexcept {
 }
 
 void give_up_if_stopped() {
-  if (requested) throw Stopped();
+  if (stop_requested()) throw Stopped();
 }
 
 void stop_on_signals(std::chrono::milliseconds until_the_end) {
@@ -89,6 +93,10 @@ void stop_on_signals(std::chrono::milliseconds until_the_end) {
 }
 
 void stop_soon(int exit_code, const char* last_words) {
+  if (Host* of = host()) {  // its process goes on
+    of->stop = true;
+    return;
+  }
   words_at_the_end = last_words;
   code_at_the_end = exit_code;
   request(0);

@@ -9,6 +9,9 @@
 // main() installs the handlers for each command that writes, before it begins. The signal itself ends a command that
 // writes nothing.
 //
+// The host of a command [host.hpp] stops it in place of a signal. So stop_requested() has to be called on the thread of
+// the command. Its other threads read the reference.
+//
 // Ranks have one second for all of it. Open MPI's mpirun passes a SIGTERM or SIGINT on after a second. From then on it
 // answers no rank, so that MPI's own end waits for nothing. It kills the ranks a second later.
 #pragma once
@@ -52,7 +55,7 @@ constexpr std::chrono::milliseconds patience_for_mpi{300};
 /// To be called once, before anything is written. SIGHUP stays ignored where it is, as under nohup.
 void stop_on_signals(std::chrono::milliseconds until_the_end = patience);
 
-/// As by a signal. If the program has to be ended, it ends with this message and this code.
+/// As by a signal; of a command with a host without an end of the program. If the program has to be ended, it ends with this message and this code.
 /// @param last_words  a string with static lifetime
 void stop_soon(int exit_code, const char* last_words);
 

@@ -10,6 +10,7 @@
 
 #include "commands.hpp"
 #include "core/atomic_file.hpp"
+#include "host.hpp"
 
 namespace epicyclic::app {
 
@@ -46,10 +47,20 @@ void secure_streams() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void write_data(std::string_view text) { write_all(STDOUT_FILENO, printable(text), "standard output"); }
+void write_data(std::string_view text) {
+  if (const Host* to = host()) {
+    if (to->data) to->data(text);
+    return;
+  }
+  write_all(STDOUT_FILENO, printable(text), "standard output");
+}
 
 void write_words(std::string_view text) noexcept {
   try {
+    if (const Host* to = host()) {
+      if (to->words) to->words(text);
+      return;
+    }
     write_all(STDERR_FILENO, printable(text), "standard error");
   } catch (...) {
     // No stream is left for a message.

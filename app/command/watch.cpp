@@ -26,6 +26,7 @@ FolderWatch::~FolderWatch() {
 }
 
 void FolderWatch::recording() {
+  const HostScope scope(host_);
   constexpr std::chrono::seconds interval{1};
   std::unique_lock lock(mutex_);
   while (!changed_.wait_for(lock, interval, [this] { return over_; })) {

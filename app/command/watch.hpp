@@ -5,6 +5,7 @@
 #include <mutex>
 #include <thread>
 
+#include "host.hpp"
 #include "store/output_folder.hpp"
 
 namespace epicyclic::app {
@@ -23,6 +24,7 @@ class FolderWatch {
   void recording();
 
   const store::OutputFolder& folder_;
+  Host* host_ = host();
   bool over_ = false;
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -2,14 +2,16 @@
 #include <initializer_list>
 #include <stdexcept>
 
+#include "host.hpp"
 #include "ranks.hpp"
 
 namespace epicyclic::app {
 
 namespace {
 
-/// The first of the variables that is set, as a number.
+/// The first of the variables that is set, as a number. A host has its processes for itself.
 int number_from(std::initializer_list<const char*> names, int otherwise) {
+  if (host() != nullptr) return otherwise;
   for (const char* name : names)
     if (const char* text = std::getenv(name)) return std::atoi(text);
   return otherwise;

@@ -555,6 +555,11 @@ JsonSource read_json_file(const std::filesystem::path& path, std::string name) {
   return parse_json(std::move(bytes), std::move(name));
 }
 
+void JsonFiles::add(const std::filesystem::path& path, std::string text) {
+  const std::scoped_lock lock(mutex_);
+  files_.insert_or_assign(path, parse_json(std::move(text), path.string()));
+}
+
 const JsonSource& JsonFiles::read(const std::filesystem::path& path) {
   const std::scoped_lock lock(mutex_);
   if (const auto known = files_.find(path); known != files_.end()) return known->second;

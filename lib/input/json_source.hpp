@@ -83,6 +83,9 @@ class JsonFiles {
   /// @throws as read_json_file()
   [[nodiscard]] const JsonSource& read(const std::filesystem::path& path);
 
+  /// A text in place of the file that read() would read.
+  void add(const std::filesystem::path& path, std::string text);
+
  private:
   std::mutex mutex_;
   std::map<std::filesystem::path, JsonSource> files_;

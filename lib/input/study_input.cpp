@@ -470,6 +470,12 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
   return LoadedInput::Loader(path, std::make_shared<JsonFiles>()).load(sets);
 }
 
+LoadedInput load_input_text(std::string text, const std::filesystem::path& path, std::span<const Assignment> sets) {
+  const auto files = std::make_shared<JsonFiles>();
+  files->add(path, std::move(text));
+  return LoadedInput::Loader(path, files).load(sets);
+}
+
 LoadedInput LoadedInput::with_further(std::span<const Assignment> sets) const {
   std::vector<Assignment> all = sources_->sets;
   all.insert(all.end(), sets.begin(), sets.end());

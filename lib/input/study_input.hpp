@@ -164,6 +164,7 @@ class LoadedInput {
 
  private:
   friend LoadedInput load_input(const std::filesystem::path&, std::span<const Assignment>);
+  friend LoadedInput load_input_text(std::string, const std::filesystem::path&, std::span<const Assignment>);
   struct Sources;
   class Loader;
   /// A resolved input: this one's, or one with other values.
@@ -179,6 +180,11 @@ class LoadedInput {
 /// Reads a study file, or a stage file (one with "lumped" or "catalogue" at its top level).
 /// @throws InputProblems with all that is wrong, OutputError when the machine cannot read a file
 [[nodiscard]] LoadedInput load_input(const std::filesystem::path& path, std::span<const Assignment> sets = {});
+
+/// The same of a text that need not be in a file.
+/// @param path  that the text would have: messages show it, and the stage file is found from it
+[[nodiscard]] LoadedInput load_input_text(std::string text, const std::filesystem::path& path,
+                                          std::span<const Assignment> sets = {});
 
 /// The tables; keys of the study, and of the stage alone.
 [[nodiscard]] const Table<Study>& study_table();

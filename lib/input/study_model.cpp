@@ -68,6 +68,11 @@ studies::ModelAt model_at(const LoadedInput& input, const std::string& parameter
   };
 }
 
+studies::ModelAt model_at(std::shared_ptr<const LoadedInput> input, const std::string& parameter) {
+  studies::ModelAt at = model_at(*input, parameter);
+  return [input = std::move(input), at = std::move(at)](double value) { return at(value); };
+}
+
 studies::ModelAt model_family(const LoadedInput& input, const std::string& parameter, double step) {
   return [&input, parameter, step, scales = model::scales_of(input.study.stage)](double value) {
     const auto at = [&](double v) { return point_at(input, std::array{PointerValue{parameter, v}}); };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ studies::ModelAt model_at(LoadedInput&& input) = delete;
 /// @throws InputError where the input has no such number
 [[nodiscard]] studies::ModelAt model_at(const LoadedInput& input, const std::string& parameter);
 studies::ModelAt model_at(LoadedInput&& input, const std::string& parameter) = delete;
+
+/// The same of an input that is shared: the result keeps it, and needs nothing else to live.
+[[nodiscard]] studies::ModelAt model_at(std::shared_ptr<const LoadedInput> input, const std::string& parameter);
 
 /// The model at each value of any parameter, named or a JSON pointer, with the derivative of its right-hand side by it:
 /// what integrate::make_flow_family() takes. Scales are those of the stage as given. `input` must outlive the result. A

@@ -269,22 +269,17 @@ GearOutput write_gear_output(const std::filesystem::path& path, const input::Loa
   const double mesh_frequency = input.study.mesh_frequency_ratio * scales.omega_sn;
   const std::filesystem::path figures = path / "figures";
   Folder folder(path);
-  GearOutput out;
-  out.warnings = input::gear_warnings(input);
+  GearOutput out = gear_words(input);
   GearPage page;
   page.title = stage.name.empty() ? "Planetary stage" : "Planetary stage " + stage.name;
 
   page.mode_ranges = mode_ranges(input, modes);
-  out.modes = modes_csv(stage, modes, scales, page.mode_ranges);
   folder.write("modes.csv", out.modes);
   folder.write("mode_shapes.csv", mode_shapes_csv(stage, modes));
   folder.write("campbell.csv", campbell_csv(modes));
   if (stage.catalogue) {
     const gear::GearSet set = gear::make_gear_set(stage);
     page.quantities = gear_quantities(set, stage);
-    out.verdicts = contact_verdicts(set, stage);
-    if (moves) out.verdicts.insert(out.verdicts.begin(), operation_verdict(stage, input.study.mesh_frequency_ratio));
-    for (const std::string& line : input::stiffness_notes(input)) out.verdicts.push_back(line + ".");
     const auto both = meshes(set, stage);
     folder.write("stiffness.csv", stiffness_csv(set));
     folder.write("load_sharing.csv", load_sharing_csv(both, set.catalogue.lubrication.value_or(gear::Lubrication{})));
@@ -303,13 +298,30 @@ GearOutput write_gear_output(const std::filesystem::path& path, const input::Loa
   folder.write("geometry.csv", quantities_csv(page.quantities));
   note_figures(out, draw_mode_figures(figures, stage));
 
-  if (moves) out.verdicts.push_back("The " + error_words(stage, input.study.mesh_frequency_ratio) + ".");
-  if (!page.mode_ranges.empty()) out.verdicts.push_back(range_words(page.mode_ranges));
   page.verdicts = out.verdicts;
   page.warnings = out.warnings;
   page.figures = out.figures;
   page.files = folder.files();
   folder.write("gear.md", gear_page(page, input, modes, scales));
+  return out;
+}
+
+GearOutput gear_words(const input::LoadedInput& input) {
+  const gear::Stage& stage = input.study.stage;
+  const model::Scales scales = model::scales_of(stage);
+  const std::vector<model::Mode> modes = model::modes(stage, scales);
+  const std::vector<ModeRange> ranges = mode_ranges(input, modes);
+  const bool moves = gear::problems_for_dynamics(stage).empty();
+  GearOutput out;
+  out.warnings = input::gear_warnings(input);
+  out.modes = modes_csv(stage, modes, scales, ranges);
+  if (stage.catalogue) {
+    out.verdicts = contact_verdicts(gear::make_gear_set(stage), stage);
+    if (moves) out.verdicts.insert(out.verdicts.begin(), operation_verdict(stage, input.study.mesh_frequency_ratio));
+    for (const std::string& line : input::stiffness_notes(input)) out.verdicts.push_back(line + ".");
+  }
+  if (moves) out.verdicts.push_back("The " + error_words(stage, input.study.mesh_frequency_ratio) + ".");
+  if (!ranges.empty()) out.verdicts.push_back(range_words(ranges));
   return out;
 }
 

@@ -32,4 +32,7 @@ void require_finite_numbers(const input::LoadedInput& input);
 /// @throws OutputError
 GearOutput write_gear_output(const std::filesystem::path& folder, const input::LoadedInput& input);
 
+/// Modes, verdicts and warnings without the figures and files, and without what only they need.
+[[nodiscard]] GearOutput gear_words(const input::LoadedInput& input);
+
 }  // namespace epicyclic::reports

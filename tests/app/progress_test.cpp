@@ -6,12 +6,14 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "core/atomic_file.hpp"
+#include "host.hpp"
 
 namespace epicyclic::app {
 namespace {
@@ -87,6 +89,29 @@ TEST(Progress, PlainLinesAreAMinuteApart) {
   EXPECT_EQ(pipe.lines(), 2) << pipe.text();
   EXPECT_NE(pipe.text().find("\nsweep 1000/1000 100.0 %  "), std::string::npos) << pipe.text();
   EXPECT_NE(pipe.text().find("  10 failed  in "), std::string::npos) << pipe.text();
+}
+
+TEST(Progress, AHostReceivesTheStateInPlaceOfLines) {
+  Pipe pipe;
+  Host host;
+  std::vector<std::size_t> seen;
+  host.progress = [&](const std::string& label, const ProgressState& state) {
+    EXPECT_EQ(label, "sweep");
+    EXPECT_EQ(state.total, 10U);
+    seen.push_back(state.done);
+  };
+  {
+    const HostScope scope(&host);
+    EXPECT_EQ(epicyclic::app::host(), &host);
+    std::thread([] { EXPECT_EQ(epicyclic::app::host(), nullptr) << "of one thread"; }).join();
+    Progress progress("sweep", 10, 2, pipe.write_end());
+    std::thread([&] { progress.update(10, 0); }).join();
+  }
+  EXPECT_EQ(epicyclic::app::host(), nullptr);
+  ASSERT_GE(seen.size(), 2U);
+  EXPECT_EQ(seen.front(), 2U);
+  EXPECT_EQ(seen.back(), 10U);
+  EXPECT_EQ(pipe.text(), "");
 }
 
 }  // namespace

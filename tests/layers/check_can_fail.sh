@@ -6,7 +6,8 @@ set -euo pipefail
 check=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/check_includes.sh
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-mkdir -p "$tree"/lib/{core,gear,model,integrate,analysis,studies,figures,store,input,reports,kinds,claims} "$tree/app/command/claims" "$tree/lib/integrate/sundials"
+mkdir -p "$tree"/lib/{core,gear,model,integrate,analysis,studies,figures,store,input,reports,kinds,claims} "$tree/app/command/claims" "$tree/app/binding" \
+  "$tree/lib/integrate/sundials"
 
 failures=0
 # expect VERDICT LAYER LINE [FOLDER]: the check of LAYER says VERDICT (0 clean, 1 offence) when one of its files, in this
@@ -55,6 +56,8 @@ expect 0 integrate '#include <arkode/arkode_erkstep.h>' sundials
 expect 0 integrate '#include <nvector/nvector_serial.h>' sundials
 
 expect 0 app '#include "claims/x.hpp"' command/claims
+expect 0 app '#include "analysis/x.hpp"' binding
+expect 1 app '#include "claims/x.hpp"' binding
 
 expect 1 core '  #  include   "store/x.hpp"'
 expect 1 core '#include "../store/x.hpp"'

@@ -35,3 +35,9 @@ if grep -qw avx2 /proc/cpuinfo; then
   cmake --build "$temporary/build"
   "$temporary/build/branches"
 fi
+# The module for Python, if it was built.
+for module in "$build_dir"/python/epicyclic/_core*.so; do
+  [ -e "$module" ] || continue
+  PYTHONPATH=$temporary/prefix/lib/python3/dist-packages /usr/bin/python3 -c 'import epicyclic._core' ||
+    { echo "FAILED: the installed module does not load"; exit 1; }
+done

@@ -20,6 +20,7 @@
 #include "expected_time.hpp"
 #include "finished_study.hpp"
 #include "folder.hpp"
+#include "host.hpp"
 #include "input/study_model.hpp"
 #include "kind_commands.hpp"
 #include "kinds/run/output.hpp"
@@ -102,7 +103,9 @@ class RunProgress {
         known_(known),
         progress_("run", total_ > 0 ? total_ : unknown_total, known) {}
 
+  /// By any thread.
   void see(const char* what, std::size_t interval) {
+    const HostScope scope(host_);
     progress_.update(interval, what);
     const std::scoped_lock lock(mutex_);
     if (said_ || interval < known_ || total_ == 0 || interval == 0) return;
@@ -126,6 +129,7 @@ class RunProgress {
   static constexpr std::chrono::seconds measured_for{2};
   std::size_t total_, known_;
   Progress progress_;
+  Host* host_ = host();
   std::mutex mutex_;
   bool said_ = false;
   std::size_t first_ = 0;
@@ -138,7 +142,7 @@ std::optional<studies::RunResult> compute(int threads, const model::DynamicModel
   RunProgress progress(options, journal.exponent_intervals());
   return studies::run_operating_point(
       model, recording, options, study.integrator,
-      {threads, [] { return !stop_requested().load(); },
+      {threads, [&stop = stop_requested()] { return !stop.load(); },
        [&](const char* what, int interval) { progress.see(what, static_cast<std::size_t>(interval)); },
        journal.memory()});
 }
