@@ -99,7 +99,7 @@ std::string revision_of(const fs::path& folder) {
   return text;
 }
 
-json run_of(const fs::path& folder) {
+json record_of(const fs::path& folder) {
   const input::JsonSource run = input::read_json_file(folder / "run.json");
   return run.complete && run.value.is_object() ? run.value : json::object();
 }
@@ -410,7 +410,7 @@ json ServedStudies::history(Served& study, const json& request) const {
       static_cast<std::size_t>(integer_in(request, "point", 0, static_cast<int>(plan.points.size()) - 1));
   const std::scoped_lock lock(study.mutex);
   const std::string identity = identity_of(input, input.study.kind());
-  if (run_of(study.folder).value("identity", "") != identity)
+  if (record_of(study.folder).value("identity", "") != identity)
     throw Refused{409, "another version of the numerics computed this study"};
   const std::string revision = revision_of(study.folder);
   if (!study.points || study.revision_of_points != revision) {
