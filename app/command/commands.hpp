@@ -56,6 +56,7 @@ struct Arguments {
   std::vector<std::string> sets;
   int threads = 1;
   bool json = false;
+  bool report = false;             ///< write the page of `report` too
   std::vector<std::string> from;   ///< points to start from, of finished studies [finished_study.hpp]
   std::filesystem::path grow;      ///< of sweep, map and basins: a finished study whose points are taken; empty: none
   std::filesystem::path against;   ///< of continue: a sweep's folder; empty: none. Of assert: the expected points' file
@@ -78,6 +79,13 @@ struct Arguments {
 int assert_command(const Arguments& arguments);
 int plot_command(const Arguments& arguments);
 int report_command(const Arguments& arguments);
+
+/// Writes the page of studies.
+/// @param output  file; empty: report.html in the first folder
+/// @returns the file
+/// @throws InputError
+std::filesystem::path write_report(const std::vector<std::filesystem::path>& folders,
+                                   const std::filesystem::path& output);
 int serve_command(const Arguments& arguments);
 int keys_command(const Arguments& arguments);
 int init_command(const Arguments& arguments);

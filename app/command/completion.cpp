@@ -119,7 +119,7 @@ class Candidates {
 
   void add(const std::string& candidate, std::string_view meaning = {}) {
     if (!candidate.starts_with(word_)) return;
-    // A line each; words that the shell would have to quote in another way are left out.
+    // A line each; words that the shell would have to quote differently are left out.
     if (std::ranges::any_of(candidate, [](unsigned char c) { return c < 0x20 || c == 0x7F; })) return;
     text_.append(before_).append(candidate);
     if (!meaning.empty()) text_.append("\t").append(meaning);

@@ -26,7 +26,8 @@ void add_grow_option(CLI::App& command, Arguments& arguments) {
 }
 
 void add_start_option(CLI::App& command, Arguments& arguments) {
-  command.get_option("INPUT")->required(false)->description("study or stage file (JSON), or the name of an installed input; not needed with --from");
+  command.get_option("INPUT")->required(false)->description(
+      "study or stage file (JSON), or the name of an installed input; not needed with --from");
   command
       .add_option(
           "--from", arguments.from,

@@ -266,6 +266,7 @@ CLI::App* add_to(CLI::App& cli, const Command& command, Arguments& arguments) {
     sub->add_option("-o,--output", arguments.output, "folder for the results; default of an installed input: out/NAME");
     sub->add_flag("--json", arguments.json, "print the summary as JSON");
     add_threads(*sub, arguments, "number of threads; the results do not depend on it");
+    sub->add_flag("--report", arguments.report, "also write FOLDER/report.html, as `report` does");
   }
   command.options(*sub, arguments);
   sub->footer(examples_text(command.name));
@@ -339,7 +340,16 @@ int run(int argc, char** argv) {
       throw InputError("only sweep, map, basins, calibrate and robustness run on several processes");
     find_input(command, arguments, ranks.rank() == 0);
     if (command.writes()) stop_on_signals(ranks.size() > 1 ? patience_of_ranks : patience);
-    return command.run(arguments);
+    const int result = command.run(arguments);
+    const bool is_complete = result == done || result == done_with_failures;
+    if (!arguments.report || !is_complete || ranks.rank() > 0) return result;
+    arguments.report_folders = {arguments.output};
+    const std::string page = write_report(arguments.report_folders, {}).string();
+    if (arguments.json)
+      print_message("open {}\n", page);
+    else
+      print("open {}\n", page);
+    return result;
   });
   if (ranks.size() > 1) leave_ranks(code);
   return code;

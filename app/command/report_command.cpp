@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -20,9 +21,9 @@ namespace epicyclic::app {
 namespace {
 
 /// A page, and nothing that a study keeps.
-std::filesystem::path output_of(const Arguments& arguments) {
-  std::filesystem::path file =
-      arguments.output.empty() ? arguments.report_folders.front() / "report.html" : arguments.output;
+std::filesystem::path output_of(const std::vector<std::filesystem::path>& folders,
+                                const std::filesystem::path& output) {
+  std::filesystem::path file = output.empty() ? folders.front() / "report.html" : output;
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw InputError("--output " + file.string() + ": is a folder; give a file");
@@ -35,11 +36,12 @@ std::filesystem::path output_of(const Arguments& arguments) {
 
 }  // namespace
 
-int report_command(const Arguments& arguments) {
+std::filesystem::path write_report(const std::vector<std::filesystem::path>& folders,
+                                   const std::filesystem::path& output) {
   ReportData data;
   nlohmann::json studies = nlohmann::json::array();
-  for (const auto& folder : arguments.report_folders) studies.push_back(study_report(folder, data, give_up_if_stopped));
-  const std::filesystem::path file = output_of(arguments);
+  for (const auto& folder : folders) studies.push_back(study_report(folder, data, give_up_if_stopped));
+  const std::filesystem::path file = output_of(folders, output);
   std::string title;
   for (const auto& study : studies) title += (title.empty() ? "" : ", ") + study["title"].get<std::string>();
   const std::string page =
@@ -50,6 +52,11 @@ int report_command(const Arguments& arguments) {
                                 {"studies", std::move(studies)}}));
   give_up_if_stopped();
   write_file_atomically(linked_file(file), page);
+  return file;
+}
+
+int report_command(const Arguments& arguments) {
+  const std::filesystem::path file = write_report(arguments.report_folders, arguments.output);
   if (arguments.json)
     print("{}\n",
           nlohmann::json{{"report", file.string()}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));

@@ -57,17 +57,6 @@ constexpr std::size_t multiplier_bytes_max = std::size_t{3} << 20;
 /// A longer summary in words is left to its file.
 constexpr std::size_t summary_bytes_max = std::size_t{256} << 10;
 
-json run_of(const std::filesystem::path& folder) {
-  std::error_code error;
-  if (!std::filesystem::is_directory(folder, error)) throw InputError(folder.string() + ": is not a folder");
-  if (!std::filesystem::exists(folder / "run.json", error))
-    throw InputError(folder.string() + ": contains no study of this program (no run.json)");
-  const input::JsonSource run = input::read_json_file(folder / "run.json");
-  if (!run.complete || !run.value.is_object() || !run.value.value("identity", json()).is_string())
-    throw InputError(folder.string() + ": contains no study of this program (no valid run.json)");
-  return run.value;
-}
-
 void require_unchanged(const std::filesystem::path& folder, const store::Manifest& files) {
   for (const store::ChangedFile& file : store::changed_files(folder, files))
     throw store::DamagedData(fmt::format("{}: {} was changed; re-run the command of this study to write it again",
@@ -789,6 +778,17 @@ class StudyReport {
 };
 
 }  // namespace
+
+nlohmann::json run_of(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error)) throw InputError(folder.string() + ": is not a folder");
+  if (!std::filesystem::exists(folder / "run.json", error))
+    throw InputError(folder.string() + ": contains no study of this program (no run.json)");
+  const input::JsonSource run = input::read_json_file(folder / "run.json");
+  if (!run.complete || !run.value.is_object() || !run.value.value("identity", json()).is_string())
+    throw InputError(folder.string() + ": contains no study of this program (no valid run.json)");
+  return run.value;
+}
 
 double micrometres_per_length_scale() { return 1e6 * model::length_scale_m; }
 

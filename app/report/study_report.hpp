@@ -14,6 +14,10 @@ namespace epicyclic::app {
 /// b_c [um]
 [[nodiscard]] double micrometres_per_length_scale();
 
+/// run.json of a study, with its "identity", a text.
+/// @throws InputError if there is no study in the folder
+[[nodiscard]] nlohmann::json run_of(const std::filesystem::path& folder);
+
 /// Changes nothing in the folder. A study of points that is not complete is reported as far as it has come.
 /// @param data       takes the columns
 /// @param stop_here  called between points; may throw

@@ -99,11 +99,6 @@ std::string revision_of(const fs::path& folder) {
   return text;
 }
 
-json record_of(const fs::path& folder) {
-  const input::JsonSource run = input::read_json_file(folder / "run.json");
-  return run.complete && run.value.is_object() ? run.value : json::object();
-}
-
 bool is_table(const json& resolved, const std::string& pointer) {
   const json::json_pointer at(pointer);
   if (at.empty()) return false;
@@ -410,7 +405,7 @@ json ServedStudies::history(Served& study, const json& request) const {
       static_cast<std::size_t>(integer_in(request, "point", 0, static_cast<int>(plan.points.size()) - 1));
   const std::scoped_lock lock(study.mutex);
   const std::string identity = identity_of(input, input.study.kind());
-  if (record_of(study.folder).value("identity", "") != identity)
+  if (run_of(study.folder).at("identity") != identity)
     throw Refused{409, "another version of the numerics computed this study"};
   const std::string revision = revision_of(study.folder);
   if (!study.points || study.revision_of_points != revision) {

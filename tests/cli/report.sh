@@ -17,6 +17,16 @@ cp -r sweep before
 [ "$(diff -rq before sweep)" = "Only in sweep: report.html" ] || fail "the study was changed: $(diff -rq before sweep)"
 [ "$(code_of "$epicyclic" sweep sweep/input.resolved.json -o sweep)" = 0 ] || fail "the folder is not its study's any more: $(<stderr)"
 
+# With --report a study writes its page itself, and names it last; also when it is complete already.
+cp -r before finished
+for place in finished/input.resolved.json sweep/input.resolved.json; do
+  [ "$(code_of "$epicyclic" sweep "$place" -o "${place%%/*}" --report)" = 0 ] || fail "sweep --report: $(<stderr)"
+  [ "$(tail -n 1 stdout)" = "open ${place%%/*}/report.html" ] || fail "the last line: $(<stdout)"
+done
+[ -s finished/report.html ] || fail "no page of a complete study"
+[ "$(code_of "$epicyclic" sweep sweep/input.resolved.json -o sweep --report --json)" = 0 ] || fail "with --json: $(<stderr)"
+! grep -q '^open ' stdout || fail "another line beside the JSON: $(<stdout)"
+
 # The same bytes again, on another day and with one thread.
 sleep 1
 [ "$(code_of taskset -c 0 "$epicyclic" report sweep -o again.html --json)" = 0 ] || fail "again: $(<stderr)"
