@@ -38,7 +38,7 @@ cat >claims.json <<END
     "choices": [ { "name": "load", "options": [
         { "name": "torque", "sets": [ { "pointer": "/stage/load", "value": { "torque_Nm": 400 } } ] },
         { "name": "power", "sets": [ { "pointer": "/stage/load", "value": { "power_kW": 400 } } ] } ] } ],
-    "search": { "seed": 3, "islands": 2, "population": 7, "candidates": 42, "refinement": 10, "profile": 3, "confirmed": 2 },
+    "search": { "seed": 3, "islands": 2, "population": 7, "candidates": 28, "refinement": 6, "profile": 3, "confirmed": 2 },
     "survey": { "draws": 6, "confirmed": 2, "screening": { "transient_periods": 40, "recorded_periods": 8, "growth_periods": 16 } } } }
 END
 [ "$(code_of "$epicyclic" check claims.json)" = 0 ] || fail "check: $(<stderr)"
@@ -349,7 +349,7 @@ refused 's/"regime": "chaotic", "at_most"/"regime": "chaotic", "from": 1.9, "to"
 refused 's/"value": { "power_kW": 400 }/"value": { "power_kW": -4 }/' '/study/choices/0: with "power": .*power_kW: is -4' calibrate
 refused 's/"pointer": "\/stage\/load", "value": { "power_kW": 400 }/"pointer": "\/study\/points", "value": 3/' 'must begin with /stage, /model or /operation' calibrate
 refused 's/"pointer": "\/stage\/load", "value": { "power_kW": 400 }/"pointer": "\/stage\/~2", "value": 3/' 'unknown key' calibrate
-refused 's/"candidates": 42/"candidates": 13/' 'must be >= islands x population = 14' calibrate
+refused 's/"candidates": 28/"candidates": 13/' 'must be >= islands x population = 14' calibrate
 refused 's/"value": 2.0 }/"value": 2.0, "same_as": "\/operation\/mesh_frequency_ratio" }/' '/study/sweeps/1/at/0: must have "value" or "same_as", and not both' reproduce
 refused 's/"value": 2.0 }/"same_as": "\/stage\/name" }/' '/study/sweeps/1/at/0/same_as: is "/stage/name", which is no number of the resolved input' reproduce
 refused 's/"value": 2.0 }/"same_as": "\/stage\/lumped\/sun\/mass_kg" }/' '/study/sweeps/1/at/0/same_as: is "/stage/lumped/sun/mass_kg", which is computed from other numbers' reproduce
@@ -359,10 +359,10 @@ refused 's/"parameter": "damping_ratio"/"parameter": "damping"/' '/study/sweeps/
 [ "$(code_of "$epicyclic" sweep claims.json -o bad)" = 2 ] || fail "a sweep of claims: $(<stderr)"
 grep -q 'run `epicyclic reproduce`' stderr || fail "which command it is of: $(<stderr)"
 # A stage outside the ranges is said to be moved into them.
-sed 's/"from": 0.5, "to": 20/"from": 3, "to": 20/; s/"candidates": 42/"candidates": 14/; s/"refinement": 10, "profile": 3, "confirmed": 2/"refinement": 0, "profile": 0/' claims.json >moved.json
+sed 's/"from": 0.5, "to": 20/"from": 3, "to": 20/; s/"candidates": 28/"candidates": 14/; s/"refinement": 6, "profile": 3, "confirmed": 2/"refinement": 0, "profile": 0/' claims.json >moved.json
 [ "$(code_of "$epicyclic" calibrate moved.json -o moved)" = 0 ] || fail "outside the ranges: $(<stderr)"
 grep -q 'the first one has E = 3 in place of 2' stderr || fail "it is not said: $(<stderr)"
-sed 's/"torque_Nm": 400 } } \]/"torque_Nm": 400 } }, { "pointer": "\/model\/gap_damping", "value": "contact_slope" }, { "pointer": "\/integrator\/clearance_smoothing", "value": 0.01 } ]/; s/"candidates": 42/"candidates": 14/; s/"refinement": 10, "profile": 3, "confirmed": 2/"refinement": 0, "profile": 0/' claims.json >moved.json
+sed 's/"torque_Nm": 400 } } \]/"torque_Nm": 400 } }, { "pointer": "\/model\/gap_damping", "value": "contact_slope" }, { "pointer": "\/integrator\/clearance_smoothing", "value": 0.01 } ]/; s/"candidates": 28/"candidates": 14/; s/"refinement": 6, "profile": 3, "confirmed": 2/"refinement": 0, "profile": 0/' claims.json >moved.json
 [ "$(code_of "$epicyclic" calibrate moved.json -o neither)" = 0 ] || fail "a stage of no option: $(<stderr)"
 grep -q 'the first one has load = "torque", of whose options it has none' stderr || fail "it is not said that no option is the stage's: $(<stderr)"
 [ "$(code_of "$epicyclic" reproduce nobody2021 -o bad)" = 2 ] || fail "no such claims: $(<stderr)"

@@ -28,10 +28,12 @@ awk -F, '$1 == 0 && $2 == "flip" { exit !($4 > 0 && $4 < 1e-6) }' whole/special.
 awk -F, '$1 == 1 && $2 == 3 { stable = $5 } END { exit !stable }' whole/branch.csv || fail "the doubled orbits are not stable"
 awk -F, '$1 == 0 && $3 == 2.2 && $5 == 1 { found = 1 } END { exit !found }' whole/branch.csv || fail "no orbit at the end"
 
-# Speeds of a special point are those of its value, to rounding: all of them have one ratio to it.
-awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
-  { ratio = $at["sun_speed_rpm"] / $at["value"]; if (NR > 2 && (ratio / first - 1) ^ 2 > 1e-28) exit 1; if (NR == 2) first = ratio }
-  END { if (NR < 3) exit 1 }' whole/special.csv || fail "speeds of special points are not those of their values"
+# Speeds of a special point are those of its value, to rounding: their ratio is that of each orbit.
+awk -F, 'FNR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+  { ratio = $at["sun_speed_rpm"] / $at["value"] }
+  FILENAME ~ /branch.csv/ { orbit = ratio; next }
+  { ++points; if ((ratio / orbit - 1) ^ 2 > 1e-28) exit 1 }
+  END { if (!points) exit 1 }' whole/branch.csv whole/special.csv || fail "speeds of special points are not those of their values"
 
 # Complete; another study.
 [ "$(code_of branches -o whole --threads 1)" = 0 ] || fail "a complete folder must give exit 0: $(<stderr)"

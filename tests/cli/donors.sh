@@ -53,6 +53,7 @@ takes() {
   [ "$code" != 2 ] || [ -s stderr ] || fail "$* was refused without a word"
 }
 methods=(--set '/study/methods=["arkode-dopri5"]')
+tolerances=(--set '/study/tolerances=[1e-5, 1e-6]' --set /study/reference_tolerance=1e-9 --set /study/chaotic_periods=64)
 for donor in "${donors[@]}"; do
   name=${donor%:*} speed=${donor#*:}
   [ "$name" = none ] && codes=2 || codes='0 1'
@@ -60,7 +61,7 @@ for donor in "${donors[@]}"; do
     from="${kind}_$name:0"
     takes "$codes" "$epicyclic" run --from "$from" "${brief[@]}"
     takes "$codes" "$epicyclic" crosscheck --from "$from" "${methods[@]}"
-    takes "$codes" "$epicyclic" tolerance --from "$from" "${methods[@]}" --set '/study/tolerances=[1e-5, 1e-6]' --set /study/reference_tolerance=1e-9
+    takes "$codes" "$epicyclic" tolerance --from "$from" "${methods[@]}" "${tolerances[@]}"
     # Of no periodic motion there may be no orbit near it, which is a result, and no branch.
     near=(from="$(plus "$speed" -1e-4)" to="$(plus "$speed" 1e-4)" starts=[] largest_period=2 tolerance=1e-7)
     takes "$codes" "$epicyclic" continue "$inputs/tang2020_branches.json" --from "$from" "${near[@]/#/--set=/study/}"
@@ -71,7 +72,7 @@ takes 0 "$epicyclic" run --from run_one:0 "${brief[@]}"
 
 # Kinds that keep no point to start from, and commands that take a folder otherwise.
 "$epicyclic" crosscheck --from run_one:0 "${methods[@]}" -o crosscheck >/dev/null 2>&1 || fail "the crosscheck"
-"$epicyclic" tolerance --from run_one:0 "${methods[@]}" --set '/study/tolerances=[1e-5, 1e-6]' --set /study/reference_tolerance=1e-9 -o tolerance >/dev/null 2>&1 || fail "the tolerance study"
+"$epicyclic" tolerance --from run_one:0 "${methods[@]}" "${tolerances[@]}" -o tolerance >/dev/null 2>&1 || fail "the tolerance study"
 "$epicyclic" continue "$inputs/tang2020_branches.json" --from run_one:0 "${near[@]/#/--set=/study/}" --set /study/from=2.7999 --set /study/to=2.8001 -o continue >/dev/null 2>&1 || fail "the branches"
 "$epicyclic" gear "$inputs/lin_parker_1999_n3.json" -o gear >/dev/null 2>&1 || fail "the gear"
 cat >claims.json <<END

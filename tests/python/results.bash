@@ -12,7 +12,7 @@ make_results() {
     [map]="map tang2020_map.json --set /study/directions=[\"up\",\"down\"] ${plane[*]} ${few[*]}"
     [basins]="basins tang2020_basins.json ${plane[*]} ${few[*]}"
     [run]="run tang2020_run.json --set /operation/mesh_frequency_ratio=2.8 --set /study/recorded_periods=16 --set /study/exponent_periods=12 --set /study/check_tolerance=1e-6 --set /study/spectrum_periods=16 --set /study/history_periods=2"
-    [branches]="continue tang2020_loci.json --set /study/branches=2 --set /study/orbits=60 --set /study/settle_periods=40 --set /study/tolerance=1e-7"
+    [branches]="continue tang2020_loci.json --set /study/branches=2 --set /study/orbits=60 --set /study/transient_periods=40 --set /study/tolerance=1e-8 --set /study/from=2.12 --set /study/to=2.18 --set /study/starts=[2.17] --set /study/loci/from=0.048 --set /study/loci/to=0.052"
     [tolerance]="tolerance tang2020_tolerance.json ${rough[*]} --set /study/tolerances=[1e-5,1e-6] --set /study/chaotic_periods=64"
     [crosscheck]="crosscheck tang2020_crosscheck.json --set /study/to=2.8 ${rough[*]}"
     [gear]="gear tang2020.json"
