@@ -183,13 +183,19 @@ function symbolsOf(study) {
   );
 }
 
+/// The title, with the folder where another study has the same one.
+const headingOf = (study, studies) =>
+  studies.some((other) => other !== study && !other.derived && other.title === study.title)
+    ? `${study.title} (${study.label})`
+    : study.title;
+
 function partOf(group, header) {
   const part = element('section', { class: 'study' });
   for (const study of group) {
     // What `serve` has computed of a study is described by its history.
     if (study.derived) continue;
     part.append(
-      header.studies.length > 1 ? element('h2', { text: study.title }) : '',
+      header.studies.length > 1 ? element('h2', { text: headingOf(study, header.studies) }) : '',
       element('p', { class: 'lead' }, rich(`${kindWords.get(study.kind) ?? capital(study.kind)}. ${study.lead}`)),
     );
     if (study.note) part.append(element('p', { class: 'note', text: study.note }));

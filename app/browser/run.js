@@ -233,8 +233,13 @@ export class Run {
     this.add(host, 'Floquet multipliers and the unit circle.', {
       xLabel: () => 'Real part',
       yLabel: () => 'Imaginary part',
-      xRange: () => [-most, most],
-      range: () => [-most, most],
+      // Units of both axes are of one length.
+      xRange: () => [-1.6 * most, 1.6 * most],
+      range: ([low, high]) => {
+        const box = this.panels.at(-1)?.plot?.bbox;
+        const half = (0.5 * (high - low)) / (box ? box.width / box.height : 1.6);
+        return [-half, half];
+      },
       draw: (context, place) => {
         strokeLine(context, place, circle.map(Math.cos), circle.map(Math.sin), { colour: theme().faint, width: 1 });
         for (let k = 0; k < table.rows; ++k)

@@ -367,11 +367,11 @@ class Classifier {
     const std::string distance = short_text(approach->distance);
     if (!approach->drawn) {
       attracted_ = true;
-      seen.note = "not yet drawn to the " + name + " that is " + distance + " away";
+      seen.note = "not yet attracted to the " + name + " that is " + distance + " away";
       return false;
     }
     set_periodic(std::move(orbit), n, multiplier, error);
-    seen.note = "drawn to the " + name + " from " + distance + " away";
+    seen.note = "attracted to the " + name + " from " + distance + " away";
     return true;
   }
 

@@ -140,7 +140,7 @@ studies::RunResult result_of(double lag = 0.0) {
   p.evidence.largest_multiplier = 0.5;
   p.evidence.multiplier_error = 1e-8;
   p.evidence.exponent = {std::log(0.5) / (4.0 * pi), 0.0};
-  p.evidence.note = "drawn to the orbit of period 2 from 0.01 away";
+  p.evidence.note = "attracted to the orbit of period 2 from 0.01 away";
   p.rhs_evaluations = 424242;
   p.meshes.sun_planet.resize(at(planets));
   p.meshes.ring_planet.resize(at(planets));

@@ -375,9 +375,9 @@ std::string found_text(const ContinueOutput& output, const std::vector<studies::
   for (const studies::CoexistingOrbits& at : found) {
     const auto stable = std::ranges::count_if(at.orbits, [](const auto& m) { return m.unstable == 0; });
     text += fmt::format(
-        "\n## Coexisting orbits at {} = {}\n\n{} periodic orbits up to period {} from {} starts; {} of the orbits are "
-        "stable. {} starts found none. No number of starts proves that there are no others.\n",
-        output.words().name, output.words().text(at.value, 9), at.orbits.size(),
+        "\n## Coexisting orbits at {} = {}\n\n{} up to period {} from {} starts; {} of them stable. "
+        "{} starts found none. No number of starts proves that there are no others.\n",
+        output.words().name, output.words().text(at.value, 9), counted(at.orbits.size(), "periodic orbits"),
         output.options.search ? output.options.search->period_max : 1, at.starts, stable, at.missed);
     if (at.orbits.empty()) continue;
     text +=

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
 #include "core/csv.hpp"
 #include "figures/line_figure.hpp"
 #include "gear/kinematics.hpp"
@@ -53,8 +54,9 @@ std::size_t unexplained(const studies::Crosscheck& all) {
 }
 
 std::string crosscheck_summary(const AxisWords& words, const studies::Crosscheck& all) {
-  std::string text = fmt::format("reference: {}, relative tolerance {:g}, {} points\n\n", all.variants[0].label,
-                                 all.variants[0].integrator.relative_tolerance, all.reference.size());
+  std::string text =
+      fmt::format("reference: {}, relative tolerance {:g}, {}\n\n", all.variants[0].label,
+                  all.variants[0].integrator.relative_tolerance, counted(all.reference.size(), "points"));
   std::map<std::string, int> regimes;
   for (const auto& r : all.reference)
     ++regimes[r.outcome == integrate::Outcome::reached ? regime_name(r) : store::status_word(r.outcome)];
