@@ -54,7 +54,7 @@ same_results whole resolved
 # will take is said.
 "$epicyclic" init slow >/dev/null 2>&1
 cat >slow/branches.json <<END
-{ "stage": "stage.json", "study": { "kind": "continue", "parameter": "mesh_frequency_ratio", "from": 0.08, "to": 0.16,
+{ "stage": "stage.json", "study": { "kind": "continue", "parameter": "mesh_frequency_ratio", "from": 0.11, "to": 0.16,
   "starts": [0.15], "period_max": 1 } }
 END
 "$epicyclic" continue slow/branches.json -o growing >stdout 2>stderr &
@@ -75,7 +75,7 @@ grep -q 'about .* left if no more branches are found' stderr || fail "how long i
 # A sweep over the flip, its proof by branches that are killed again and again, and seeds of it.
 sweep=(--set /study/from=2.1 --set /study/to=2.2 --set /study/points=6 --set /study/transient_periods=400)
 [ "$(code_of "$epicyclic" sweep "${speeds[@]}" "${sweep[@]}" -o sweep)" = 0 ] || fail "sweep: $(<stderr)"
-PICTURE_TAKES=0.1 killed_until_done proved 600 "$epicyclic" continue "$study" "${small[@]}" -o proved --against sweep
+PICTURE_TAKES=0.1 killed_until_done proved 2000 "$epicyclic" continue "$study" "${small[@]}" -o proved --against sweep
 [ "$(wc -l <proved/proof.csv)" = 3 ] || fail "one change each way: $(<proved/proof.csv)"
 [ "$(cut -d, -f7,8,11,12,15 proved/proof.csv | sed -n 2p)" = 'period 2,period 1,1,bifurcation,flip' ] ||
   fail "the change: $(sed -n 2p proved/proof.csv)"

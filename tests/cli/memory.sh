@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # memory.sh EPICYCLIC SOURCE_DIR
 #
-# Peak memory of a sweep, results included, does not grow with its points: 4500 more points of 3.4 kB each take no more
+# Peak memory of a sweep, results included, does not grow with its points: 2000 more points of 3.4 kB each take no more
 # than 100 bytes each; nor does that of a map. `check` of the largest studies takes less than 200 MB. Skipped (77) with
 # sanitizers, whose bookkeeping grows.
 set -euo pipefail
@@ -23,13 +23,13 @@ peak_of() {
 
 # Places, and 4 MiB for buffers of fixed size that few points do not fill (tables and figures are written in blocks of
 # 1 MiB, HDF5 keeps as much; those of a map are full at some 10000 cells). Points of sweeps kept in memory would take
-# 53 MiB more, cells of maps 15 MiB.
+# 23 MiB more, cells of maps 15 MiB.
 is_flat() {
   echo "$1: few points $2 KiB, $3 more $4 KiB"
   [ $(($4 - $2)) -lt $(($3 * 100 / 1024 + 4096)) ] || { echo "FAILED: memory grows"; exit 1; }
 }
 few=$(peak_of sweep tang2020_speed.json --set /study/crosscheck/points=0 --set /study/points=500)
-is_flat sweep "$few" 4500 "$(peak_of sweep tang2020_speed.json --set /study/crosscheck/points=0 --set /study/points=5000)"
+is_flat sweep "$few" 2000 "$(peak_of sweep tang2020_speed.json --set /study/crosscheck/points=0 --set /study/points=2500)"
 cells=(--set /study/recorded_periods=2 --set /study/period_max=1 --set /study/output_phases=4)
 few=$(peak_of map tang2020_map.json "${cells[@]}" --set /study/first/points=110 --set /study/second/points=110)
 is_flat map "$few" 13500 "$(peak_of map tang2020_map.json "${cells[@]}" --set /study/first/points=160 --set /study/second/points=160)"

@@ -79,6 +79,7 @@ sweep "${longer[@]}" -o whole >stdout 2>stderr
 [ "$(wc -l <stdout)" -le 5 ] || fail "a sweep prints more than five lines: $(<stdout)"
 grep -q "next: $epicyclic " stdout || fail "no next command: $(<stdout)"
 eval "next=($(sed -n 's/.*next: //p' stdout))"
+[ "${next[1]}" != run ] || next+=(--set /study/exponent_periods=0 --set /study/classification_periods=64)
 [ "$(code_of "${next[@]}" --set /study/transient_periods=0)" != 2 ] || [ "${next[1]}" = continue ] || fail "${next[*]}: $(<stderr)"
 grep -q '^## Not certain$' whole/sweep.md || [ "${next[1]}" = continue ] || fail "sweep.md: $(<whole/sweep.md)"
 
