@@ -110,6 +110,15 @@ grep -q 'there is no point 9000; the study has [0-9]* points, numbered from 0; F
 [ "$(code_of "$epicyclic" run --from basins:1 -o of_basins "${brief[@]}")" = 0 ] || fail "of basins: $(<stderr)"
 grep -q 'coexists there: .* of 4 cells' stderr || fail "of basins: $(<stderr)"
 
+# A speed as the sweep gives it, without a unit.
+few=(--set /study/transient_periods=2 --set /study/recorded_periods=8 --set /study/classification_periods=0 --set /study/crosscheck/points=0)
+"$epicyclic" sweep "$inputs/tang2020_speed.json" "${few[@]}" --set /study/parameter=sun_speed_rpm --set /study/from=4000 \
+  --set /study/to=30000 --set /study/points=3 -o rpm >/dev/null 2>&1 || fail "the sweep in rpm"
+for speed in 17000 17000rpm 0.75; do
+  code_of "$epicyclic" crosscheck --from "rpm:up=$speed" -o "at_$speed" --set '/study/methods=["cvode-adams"]' >/dev/null
+  grep -q 'point 1 (up, .*, sun 17000 rpm)' stderr || fail "$speed is another point: $(<stderr)"
+done
+
 refused() {
   [ "$(code_of "$@" -o refused)" = 2 ] || fail "exit code of $*: $(<stderr)"
   [ "$(wc -l <stderr)" -le 2 ] || fail "$*: $(<stderr)"
