@@ -490,12 +490,19 @@ function besideSpecial(diagram, point) {
   return made;
 }
 
-/// Multipliers of an orbit beside the unit circle; those far outside are in the caption only.
+/// Multipliers of an orbit of a branch.
 function multiplierFigure(study, row, colour) {
   const table = study.table('multipliers');
   const count = study.multipliers_of_orbit;
   if (!table || (row + 1) * count > table.rows) return null;
   const [re, im] = ['real', 'imaginary'].map((name) => table.numbers(name).subarray(row * count, (row + 1) * count));
+  return multipliersFigure(re, im, colour)?.host ?? null;
+}
+
+/// Multipliers beside the unit circle; those far outside are in the caption only.
+/// @param errors  of each, to be shown with it; optional
+/// @returns a smallFigure, or null if no multiplier is known
+export function multipliersFigure(re, im, colour, errors) {
   const known = Array.from(re, (_, k) => k).filter((k) => Number.isFinite(re[k]));
   if (known.length === 0) return null;
   const limit = 3;
@@ -527,7 +534,9 @@ function multiplierFigure(study, row, colour) {
         );
         return near === undefined
           ? null
-          : { text: `${text(near)}\nmodulus ${number(Math.hypot(re[near], im[near]), 6)}` };
+          : {
+              text: `${text(near)}\nmodulus ${number(Math.hypot(re[near], im[near]), 6)}${errors ? `\nerror ${number(errors[near], 2)}` : ''}`,
+            };
       },
     },
   );
@@ -536,7 +545,7 @@ function multiplierFigure(study, row, colour) {
     figure.view.reset();
   };
   new ResizeObserver(fit).observe(figure.host);
-  return figure.host;
+  return figure;
 }
 
 /// Puts what was chosen beside the figure. Screen readers say its heading and its first line, and not all of it.

@@ -2,7 +2,7 @@
 import { Panel, View, dot, strokeLine } from './panel.js';
 import { theme } from './theme.js';
 import { capital, element, factorOf, lengthUnit, number, symbol, unitText } from './words.js';
-import { extent, rowDetails, sectionFigure, smallFigure } from './details.js';
+import { extent, multipliersFigure, rowDetails, sectionFigure, smallFigure } from './details.js';
 
 const label = (column) =>
   `${symbol(column.name) || (column.meaning ? capital(column.meaning) : column.name)}${unitText(column.unit) ? `  [${unitText(column.unit)}]` : ''}`;
@@ -228,33 +228,10 @@ export class Run {
   multipliers(table, host) {
     if (!table) return;
     const [re, im, error] = ['re', 'im', 'error'].map((name) => table.numbers(name));
-    const most = 1.1 * Math.max(1.05, ...Array.from({ length: table.rows }, (_, k) => Math.hypot(re[k], im[k])));
-    const circle = Array.from({ length: 181 }, (_, k) => (2 * Math.PI * k) / 180);
-    this.add(host, 'Floquet multipliers and the unit circle.', {
-      xLabel: () => 'Real part',
-      yLabel: () => 'Imaginary part',
-      // Units of both axes are of one length.
-      xRange: () => [-1.6 * most, 1.6 * most],
-      range: ([low, high]) => {
-        const box = this.panels.at(-1)?.plot?.bbox;
-        const half = (0.5 * (high - low)) / (box ? box.width / box.height : 1.6);
-        return [-half, half];
-      },
-      draw: (context, place) => {
-        strokeLine(context, place, circle.map(Math.cos), circle.map(Math.sin), { colour: theme().faint, width: 1 });
-        for (let k = 0; k < table.rows; ++k)
-          dot(context, place.x(re[k]), place.y(im[k]), 3 * place.ratio, theme().series[0]);
-      },
-      hover: ({ left, top, x, y, ratio }) => {
-        const plot = this.panels.at(-1).plot;
-        for (let k = 0; k < table.rows; ++k)
-          if (Math.hypot((x(re[k]) - plot.bbox.left) / ratio - left, (y(im[k]) - plot.bbox.top) / ratio - top) < 8)
-            return {
-              text: `${number(re[k])} ${im[k] < 0 ? '−' : '+'} ${number(Math.abs(im[k]))} i\nmodulus ${number(Math.hypot(re[k], im[k]))}\nerror ${number(error[k], 2)}`,
-            };
-        return null;
-      },
-    });
+    const made = multipliersFigure(re, im, () => theme().series[0], error);
+    if (!made) return;
+    this.panels.push(made.panel);
+    host.append(made.host);
   }
 }
 

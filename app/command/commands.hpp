@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,9 +67,8 @@ struct Arguments {
   bool quiet = false;              ///< part of another command: nothing on stdout
   bool figures = true;             ///< of sweep: PNG, SVG and their data are written
   int port = 0;                    ///< of serve; 0: any that is free
-  std::function<void(std::size_t, std::size_t)> progress{};  ///< of studies of points: finished, in all; may be empty
-  std::vector<std::string> words;                            ///< of keys: what the user searches for
-  std::vector<std::filesystem::path> report_folders{};       ///< of report and serve
+  std::vector<std::string> words;  ///< of keys: what the user searches for
+  std::vector<std::filesystem::path> report_folders{};  ///< of report and serve
   PlotArguments plot{};
   InitArguments init{};
   Ranks* ranks = nullptr;

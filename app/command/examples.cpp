@@ -56,7 +56,7 @@ constexpr Row rows[] = {
       "epicyclic assert out/branches expected.json --junit "
       "verdicts.xml"}},
     {"assert", {"record them", "epicyclic assert out/branches expected.json --record"}},
-    {"plot", {"the dynamic load factor of two designs", "epicyclic plot out/a out/b -o out/figures --quantity kv_sp"}},
+    {"plot", {"the dynamic factor K_v of two designs", "epicyclic plot out/a out/b -o out/figures --quantity kv_sp"}},
     {"plot",
      {"against the speed of the sun, as PDF",
       "epicyclic plot out/speed -o out/figures --x sun_speed_rpm --quantity force_sp_max --format pdf"}},

@@ -66,7 +66,6 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
   Progress progress(arguments.quiet ? arguments.output.filename().string() : std::string(command), plan.points.size(),
                     store.size());
   progress.update(store.size(), failed);
-  if (arguments.progress) arguments.progress(store.size(), plan.points.size());
   std::mutex counting;
   std::size_t elsewhere = 0;  // points of other ranks
   run.end_state = [&](std::size_t index) { return store.read_summary(index).end_state; };
@@ -76,7 +75,6 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
     const std::scoped_lock lock(counting);
     failed += computed(result) ? 0 : 1;
     progress.update(store.size() + elsewhere, failed);
-    if (arguments.progress) arguments.progress(store.size(), plan.points.size());
   };
   if (leader == nullptr) {
     (void)studies::run_sweep(plan, recording, input.study.integrator, model_at, run);

@@ -53,7 +53,7 @@ int serve_command(const Arguments& arguments) {
                    return {status, is_data ? "application/octet-stream" : "application/json", std::move(text)};
                  }});
   print("open http://127.0.0.1:{}{}\n", server->port(), gate->page());
-  while (!end_requested()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  while (!stop_requested()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   const bool stopped = studies.end();
   server->stop();
   return stopped ? stopped_early : done;

@@ -17,8 +17,6 @@ namespace epicyclic::app {
 namespace {
 
 std::atomic<bool> requested{false};
-/// Of the whole program, and not of one computation of `serve`.
-std::atomic<bool> ending{false};
 /// The message of a program that has to be ended, or nothing, and its code.
 std::atomic<const char*> words_at_the_end{"stopped before the end; re-run the same command to resume\n"};
 std::atomic<int> code_at_the_end{stopped_early};
@@ -46,9 +44,8 @@ void end_at_once(int /*signal*/) {
 }
 
 void request(int /*signal*/) {
-  requested = true;
   // Repeated signals do not put the end off.
-  if (!ending.exchange(true)) ::timer_settime(last_call, 0, &patience_left, nullptr);
+  if (!requested.exchange(true)) ::timer_settime(last_call, 0, &patience_left, nullptr);
 }
 
 }  // namespace
@@ -56,15 +53,6 @@ void request(int /*signal*/) {
 const std::atomic<bool>& stop_requested() {
   const Host* of = host();
   return of != nullptr ? of->stop : requested;
-}
-
-const std::atomic<bool>& end_requested() { return ending; }
-
-void cancel_computation() { requested = true; }
-
-void forget_cancellation() {
-  requested = false;
-  if (ending) requested = true;
 }
 
 void leave_at_once(int exit_code) noexcept {
@@ -106,7 +94,7 @@ void leave_ranks(int exit_code) {
   words_at_the_end = nullptr;
   code_at_the_end = exit_code;
   const itimerspec left = once_after(patience_for_mpi);
-  if (ending) ::timer_settime(last_call, 0, &left, nullptr);
+  if (requested) ::timer_settime(last_call, 0, &left, nullptr);
 }
 
 }  // namespace epicyclic::app

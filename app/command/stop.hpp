@@ -22,16 +22,8 @@
 
 namespace epicyclic::app {
 
-/// Set by the first SIGINT, SIGTERM or SIGHUP after stop_on_signals(), and by cancel_computation().
+/// Set by the first SIGINT, SIGTERM or SIGHUP after stop_on_signals(), or by the host of the command.
 [[nodiscard]] const std::atomic<bool>& stop_requested();
-
-/// Set by the signals alone: the program ends.
-[[nodiscard]] const std::atomic<bool>& end_requested();
-
-/// For `serve`, which lives longer than what it computes: stops a command as a signal does, without a limit of time;
-/// then, after that command has returned, lets the next one run, unless a signal has come.
-void cancel_computation();
-void forget_cancellation();
 
 /// Work in progress was abandoned because of stop_requested(). The code that has a folder open catches this exception
 /// and leaves the folder in order. Anywhere else it ends the command with code 75 [failure_of()].
@@ -55,7 +47,8 @@ constexpr std::chrono::milliseconds patience_for_mpi{300};
 /// To be called once, before anything is written. SIGHUP stays ignored where it is, as under nohup.
 void stop_on_signals(std::chrono::milliseconds until_the_end = patience);
 
-/// As by a signal; of a command with a host without an end of the program. If the program has to be ended, it ends with this message and this code.
+/// As by a signal; of a command with a host without an end of the program. If the program has to be ended, it ends with
+/// this message and this code.
 /// @param last_words  a string with static lifetime
 void stop_soon(int exit_code, const char* last_words);
 

@@ -5,12 +5,25 @@
 
 #include "command/failure.hpp"
 #include "command/kind_commands.hpp"
+#include "command/progress.hpp"
 #include "command/stop.hpp"
 #include "command/streams.hpp"
 
 namespace epicyclic::app {
 
+ServedComputation::ServedComputation() {
+  host_.words = [](std::string_view text) {
+    const HostScope program(nullptr);
+    write_words(text);
+  };
+  host_.progress = [this](const std::string& /*label*/, const ProgressState& state) {
+    done_ = state.done;
+    total_ = state.total;
+  };
+}
+
 bool ServedComputation::end() {
+  server_ended_ = true;
   cancel();
   if (thread_.joinable()) thread_.join();
   return stopped_at_the_end_;
@@ -18,12 +31,13 @@ bool ServedComputation::end() {
 
 bool ServedComputation::start(Job job) {
   const std::scoped_lock lock(mutex_);
-  if (busy_ || end_requested()) return false;
+  if (busy_ || stop_requested()) return false;
   if (thread_.joinable()) thread_.join();  // it has ended
   busy_ = true;
   study_ = job.study;
   done_ = 0;
   total_ = 0;
+  host_.stop = false;
   begun_ = std::chrono::steady_clock::now();
   thread_ = std::thread([this, of = std::move(job)] { run(of); });
   return true;
@@ -35,10 +49,7 @@ void ServedComputation::run(const Job& job) {
   try {
     Arguments arguments = job.arguments;
     arguments.quiet = true;
-    arguments.progress = [this](std::size_t done, std::size_t total) {
-      done_ = done;
-      total_ = total;
-    };
+    const HostScope scope(&host_);
     code = command_of(job.kind).run(arguments);
   } catch (...) {
     const Failure failure = failure_of(std::current_exception());
@@ -47,8 +58,7 @@ void ServedComputation::run(const Job& job) {
     print_message("{}\n", failure.what());
   }
   const std::scoped_lock lock(mutex_);
-  stopped_at_the_end_ = end_requested() && code == stopped_early;
-  forget_cancellation();
+  stopped_at_the_end_ = server_ended_ && code == stopped_early;
   busy_ = false;
   last_ = {{"study", job.study}, {"code", code}, {"message", message}};
   ended_.notify_all();
@@ -56,7 +66,7 @@ void ServedComputation::run(const Job& job) {
 
 void ServedComputation::cancel() {
   const std::scoped_lock lock(mutex_);
-  if (busy_) cancel_computation();
+  if (busy_) host_.stop = true;
 }
 
 bool ServedComputation::wait(std::chrono::milliseconds most) {

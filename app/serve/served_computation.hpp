@@ -1,4 +1,4 @@
-// The one computation that `serve` may have at work: a command in a thread of its own.
+// The one computation that `serve` may have at work: a command in a thread of its own, with the server as its host.
 #pragma once
 
 #include <atomic>
@@ -12,12 +12,13 @@
 #include <nlohmann/json.hpp>
 
 #include "command/commands.hpp"
+#include "command/host.hpp"
 
 namespace epicyclic::app {
 
 class ServedComputation {
  public:
-  ServedComputation() = default;
+  ServedComputation();
   ServedComputation(const ServedComputation&) = delete;
   ServedComputation& operator=(const ServedComputation&) = delete;
   ~ServedComputation() { (void)end(); }
@@ -59,7 +60,9 @@ class ServedComputation {
   std::size_t study_ = 0;
   std::chrono::steady_clock::time_point begun_;
   std::atomic<std::size_t> done_{0}, total_{0};
+  Host host_;
   nlohmann::json last_;
+  std::atomic<bool> server_ended_{false};
   bool stopped_at_the_end_ = false;
 };
 

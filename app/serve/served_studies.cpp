@@ -368,7 +368,7 @@ std::string ServedStudies::data(Served& study) const {
   }
   ReportData data;
   const auto stop_here = [] {
-    if (end_requested()) throw Stopped();
+    if (stop_requested()) throw Stopped();
   };
   json described;
   try {

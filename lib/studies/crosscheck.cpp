@@ -183,9 +183,10 @@ class Examiner {
     const PointResult their_tight = compute(point, tight_other, start, recording_);
     const Pair tight{point, tight_ours, our_tight, tight_other, their_tight};
     if (reached(our_tight) && reached(their_tight) && same(tight))
-      return done(Verdict::tolerance, chaotic(our_tight) ? "at tolerances 100 times tighter both have the same largest exponent"
-                                                         : "at tolerances 100 times tighter the distance is " +
-                                                               short_text(distance(tight)));
+      return done(Verdict::tolerance,
+                  chaotic(our_tight)
+                      ? "at tolerances 100 times tighter both have the same largest exponent"
+                      : "at tolerances 100 times tighter the distance is " + short_text(distance(tight)));
     follow(both, c);
   }
 

@@ -165,7 +165,7 @@ double StageRecord::largest_bearing_force() const {
 ResponseStatistics::ResponseStatistics(const model::DynamicModel& model, int phases, bool keeps_signal)
     : model_(model),
       rows_{static_cast<std::size_t>(model.planets)},
-      phases_(model, phases, extrema_refinement(model, phases)),
+      phases_(recording_phases(model, phases)),
       count_(static_cast<std::size_t>(phases)),
       states_(model.dimension, Numbers(0.0)),
       now_(rows_.count()),

@@ -36,6 +36,14 @@ inline constexpr double fastest_mode = 2.0;
 /// @param phases  samples for means, per mesh period
 [[nodiscard]] int extrema_refinement(const model::DynamicModel& model, int phases);
 
+/// Those of a mesh period at which a response is recorded: both sides of each breakpoint too.
+/// @param phases  samples for means
+/// @param times   as many more between two of them
+[[nodiscard]] inline analysis::RecordingPhases recording_phases(const model::DynamicModel& model, int phases,
+                                                                int times = 1) {
+  return {model, phases, times * extrema_refinement(model, phases)};
+}
+
 /// Of something over time; no numbers where nothing was seen.
 struct Course {
   double least = std::numeric_limits<double>::quiet_NaN();

@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "analysis/lyapunov.hpp"
-#include "analysis/poincare.hpp"
 #include "core/fit.hpp"
 #include "core/largest_difference.hpp"
 #include "integrate/make_flow.hpp"
@@ -134,7 +133,7 @@ class PointStudy {
         threads_(threads),
         stop_(stop),
         model_(model_at(out.point.value, study_smoothing)),
-        phases_(recorded_phases(1)) {}
+        phases_(recording_phases(model_, recording.output_phases).s) {}
 
   void run() {
     if (out_.study.outcome != integrate::Outcome::reached) {
@@ -173,12 +172,6 @@ class PointStudy {
                 tolerance * integrator_.absolute_tolerance / integrator_.relative_tolerance);
   }
 
-  /// Those at which the study records, with `times` as many between two of its uniform ones.
-  [[nodiscard]] std::vector<double> recorded_phases(int times) const {
-    const int uniform = recording_.output_phases;
-    return analysis::RecordingPhases(model_, uniform, times * extrema_refinement(model_, uniform)).s;
-  }
-
   bool find_reference() {
     const auto reference = flow(reference_options(reference_method), model_);
     ConvergedOrbit converged = converged_orbit(*reference, out_.study);
@@ -191,7 +184,8 @@ class PointStudy {
     out_.orbit = known_.state;
     out_.reference_residual = *std::min_element(known_.residuals.begin(), known_.residuals.end());
     out_.reference = quantities_of(*reference, model_, known_.state, n, phases_);
-    const Quantities finer = quantities_of(*reference, model_, known_.state, n, recorded_phases(finer_phases));
+    const Quantities finer = quantities_of(*reference, model_, known_.state, n,
+                                           recording_phases(model_, recording_.output_phases, finer_phases).s);
     for (std::size_t k = 0; k < finer.size(); ++k) out_.between_phases[k] = finer[k] - out_.reference[k];
     end_ = known_.state;
     (void)advance(*reference, end_, n);

@@ -165,3 +165,37 @@ export class Page {
     await this.frame();
   }
 }
+
+/// Checks of pages, counted; `run` ends the process.
+export class Checks {
+  failed = 0;
+
+  expect = (holds, what) => {
+    if (holds) return;
+    console.log(`FAILED: ${what}`);
+    ++this.failed;
+  };
+
+  clean = (page, name) => this.expect(page.wrong.length === 0, `${name}: ${page.wrong.join('\n')}`);
+
+  /// The policy of the page lets no request go to this address.
+  async sendsNothing(page, address) {
+    const refused = await page.value(`new Promise((resolve) => {
+      document.addEventListener('securitypolicyviolation', (event) => resolve(event.effectiveDirective));
+      fetch('${address}').then(() => resolve('sent'), () => setTimeout(() => resolve('failed'), 500));
+    })`);
+    this.expect(refused === 'connect-src', `the policy lets a request go: ${refused}`);
+  }
+
+  async run(browser, checks) {
+    try {
+      await checks();
+    } catch (error) {
+      this.expect(false, error.stack);
+    } finally {
+      await browser.close();
+    }
+    console.log(`${this.failed} failures`);
+    process.exit(this.failed === 0 ? 0 : 1);
+  }
+}

@@ -2,17 +2,12 @@
 //
 // The page of `serve` as a reader uses it: a study grows, a history is computed, a region is computed finer and cancelled,
 // a slider moved, two windows; a narrow screen, dark, no error and no request to another place.
-import { Browser } from './browser.mjs';
+import { Browser, Checks } from './browser.mjs';
 
 const [, , program, address, growing, server] = process.argv;
-let failed = 0;
-const expect = (holds, what) => {
-  if (holds) return;
-  console.log(`FAILED: ${what}`);
-  ++failed;
-};
+const checks = new Checks();
+const { expect, clean } = checks;
 const browser = new Browser(program);
-const clean = (page, name) => expect(page.wrong.length === 0, `${name}: ${page.wrong.join('\n')}`);
 const state = (page) => page.value("document.querySelector('.live .state').textContent");
 const steps = (page) =>
   page.value("[...document.querySelectorAll('.steps button')].map((button) => button.textContent)");
@@ -37,7 +32,7 @@ async function region(page, from, to) {
   await page.mouse('mouseReleased', at(to), y, { ...control, clickCount: 1 });
 }
 
-try {
+await checks.run(browser, async () => {
   {
     // It grows while it is read, and what was chosen stays.
     const page = await browser.open(growing);
@@ -143,16 +138,5 @@ try {
   expect((await counted(page)) > 0, 'nothing is shown any more');
 
   // The policy: nothing but the server is reached.
-  const refused = await page.value(`new Promise((resolve) => {
-    document.addEventListener('securitypolicyviolation', (event) => resolve(event.effectiveDirective));
-    fetch('http://127.0.0.1:9/').then(() => resolve('sent'), () => setTimeout(() => resolve('failed'), 500));
-  })`);
-  expect(refused === 'connect-src', `the policy lets a request go: ${refused}`);
-} catch (error) {
-  console.log(`FAILED: ${error.stack}`);
-  ++failed;
-} finally {
-  await browser.close();
-}
-console.log(`${failed} failures`);
-process.exit(failed === 0 ? 0 : 1);
+  await checks.sendsNothing(page, 'http://127.0.0.1:9/');
+});

@@ -4,9 +4,7 @@
 # Pages of `serve` in a headless Chromium, as live.mjs reads them. Skipped where Chromium, Node.js or HTTP is missing.
 set -euo pipefail
 source "$2/tests/cli/common.bash"
-
-chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || skip "no Chromium"
-command -v node >/dev/null || skip "no Node.js"
+source "$2/tests/browser/browser.bash"
 source "$2/tests/cli/report_studies.bash"
 
 make_sweep sweep

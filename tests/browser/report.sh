@@ -4,9 +4,7 @@
 # Pages of `report` in a headless Chromium, as report.mjs reads them. Skipped where Chromium or Node.js is missing.
 set -euo pipefail
 source "$2/tests/cli/common.bash"
-
-chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || skip "no Chromium"
-command -v node >/dev/null || skip "no Node.js"
+source "$2/tests/browser/browser.bash"
 source "$2/tests/cli/report_studies.bash"
 
 mkdir pages

@@ -72,7 +72,8 @@ TEST(SweepSummary, TellsWindows) {
 TEST(SweepSummary, HasTheRangesOfContactLoss) {
   std::vector<PointResult> points = sweep({{1, 0}, {1, 0}, {1, 0}}, {{1, 0}, {1, 0}, {1, 0}});
   for (PointResult& p : points)
-    for (auto* meshes : {&p.meshes.sun_planet, &p.meshes.ring_planet}) (*meshes)[0].drive = 1.0, (*meshes)[0].back = 0.0;
+    for (auto* meshes : {&p.meshes.sun_planet, &p.meshes.ring_planet})
+      (*meshes)[0].drive = 1.0, (*meshes)[0].back = 0.0;
   EXPECT_NE(told(points).text.find("No mesh loses contact"), std::string::npos);
   points[1].meshes.ring_planet[0].drive = 0.9;
   points[2].meshes.ring_planet[0].drive = 0.8;
@@ -85,8 +86,9 @@ TEST(SweepSummary, HasTheRangesOfContactLoss) {
 
 TEST(SweepSummary, ChaosBesideAnOrbitMayBeATransient) {
   const SweepSummary s = told(sweep({{1, 0}, {1, 0}, {1, 0}}, {{1, 0}, {0, 0}, {2, 0}}));
-  EXPECT_EQ(s.lines.front(),
-            "two attractors coexist at 2 of 3 values: 2 to 3; at 1 of these one is chaotic and may be a long transient");
+  EXPECT_EQ(
+      s.lines.front(),
+      "two attractors coexist at 2 of 3 values: 2 to 3; at 1 of these one is chaotic and may be a long transient");
   EXPECT_EQ(s.numbers["unlike"]["one_chaotic"], 1);
   EXPECT_NE(s.text.find("/study/classification_periods"), std::string::npos) << s.text;
 }

@@ -452,30 +452,26 @@ TEST(Tolerance, ErrorsAndErrorBarsAreTheTrueOnes) {
   }
   // The extrema of the study lie within their error bars of the exact ones.
   const problems::ClearanceExact solution(0.85);
-  const auto largest_at = [&](int phases) {
-    double largest = -10.0;
-    for (int j = 1; j <= phases; ++j)
-      largest = std::max(largest, solution.evolve(exact, 0.0, 2.0 * 3.14159265358979323846 * j / phases)[0]);
-    return largest;
+  const auto extremes_at = [&](int count) {
+    std::pair<double, double> extremes{10.0, -10.0};
+    for (int j = 1; j <= count; ++j) {
+      const double x = solution.evolve(exact, 0.0, 2.0 * 3.14159265358979323846 * j / count)[0];
+      extremes = {std::min(extremes.first, x), std::max(extremes.second, x)};
+    }
+    return extremes;
   };
   const int phases = 64 * extrema_refinement(oscillator(0.85, 0.0), 64);  // at which the study records
-  const double most = largest_at(phases);
+  const auto [least, most] = extremes_at(phases);
   const double bar = std::abs(p.study.meshes.sun_planet[0].delta.largest - p.reference[1]) + p.reference_error[1];
   EXPECT_LE(std::abs(p.study.meshes.sun_planet[0].delta.largest - most), bar + reference);
   EXPECT_LE(std::abs(p.reference[1] - most), p.reference_error[1] + reference);
   constexpr double times_the_condition = 1e-4;  // tolerance 1e-7, and its dense output between steps
   EXPECT_LT(bar, times_the_condition);
   // The least one falls between two of 64 uniform phases: study and reference are sampled alike.
-  const auto least_at = [&](int count) {
-    double least = 10.0;
-    for (int j = 1; j <= count; ++j)
-      least = std::min(least, solution.evolve(exact, 0.0, 2.0 * 3.14159265358979323846 * j / count)[0]);
-    return least;
-  };
-  EXPECT_NEAR(p.reference[0], least_at(phases), p.reference_error[0] + reference);
-  EXPECT_GT(least_at(64) - least_at(phases), 10.0 * (p.reference_error[0] + reference));
+  EXPECT_NEAR(p.reference[0], least, p.reference_error[0] + reference);
+  EXPECT_GT(extremes_at(64).first - least, 10.0 * (p.reference_error[0] + reference));
   // What the recorded phases miss.
-  EXPECT_NEAR(p.between_phases[1], largest_at(finer_phases * phases) - most, p.reference_error[1] + reference);
+  EXPECT_NEAR(p.between_phases[1], extremes_at(finer_phases * phases).second - most, p.reference_error[1] + reference);
   EXPECT_GT(p.between_phases[1], 10.0 * p.reference_error[1]);
   // Smoothing's bias falls, and what is extrapolated is nearer to the truth than the least width.
   for (std::size_t k = 1; k < p.smoothing.size(); ++k) EXPECT_LT(p.smoothing[k].distance, p.smoothing[k - 1].distance);

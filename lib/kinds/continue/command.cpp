@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -156,12 +157,21 @@ class OrbitRows {
     return known->second;
   }
 
-  [[nodiscard]] model::DynamicModel model(double value) const { return models_(value); }
+  /// omega_m [rad/s] and the speeds of the members.
+  const std::pair<double, gear::Speeds>& speeds_at(double value) {
+    auto known = speeds_.find(value);
+    if (known == speeds_.end()) {
+      const model::DynamicModel model = models_(value);
+      known = speeds_.emplace(value, std::pair(model.omega * model.scales.omega_sn, model.speeds)).first;
+    }
+    return known->second;
+  }
 
  private:
   const studies::ModelAt& models_;
   int phases_;
   std::map<std::vector<double>, studies::BranchRow> rows_;
+  std::map<double, std::pair<double, gear::Speeds>> speeds_;
 };
 
 /// Rows of all orbits and special points of the branches.
@@ -182,9 +192,8 @@ void add_rows(TracedBranches& traced, OrbitRows& known, const model::DynamicMode
     const analysis::Branch& branch = traced.branches[r.branch];
     traced.at_special.push_back(row(branch, branch.special[r.point].orbit));
     // At the value itself, which is located more closely than the orbit that was found next to it.
-    const model::DynamicModel there = known.model(std::isfinite(r.value) ? r.value : traced.at_special.back().value);
-    r.mesh_frequency = there.omega * there.scales.omega_sn;
-    r.speeds = there.speeds;
+    std::tie(r.mesh_frequency, r.speeds) =
+        known.speeds_at(std::isfinite(r.value) ? r.value : traced.at_special.back().value);
   }
 }
 
