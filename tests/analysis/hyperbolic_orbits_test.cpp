@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <gtest/gtest.h>
 
