@@ -12,7 +12,7 @@ const usual = {
   'friction.csv': { x: 'position', y: 'mu', group: 'mesh' },
   'friction_ratios.csv': { x: 'phase', y: 'force_ratio', group: 'mesh', joined: true },
   'bearings.csv': { x: 'approach_um', y: 'force_N', group: 'member' },
-  'campbell.csv': { x: 'mesh_frequency_ratio', y: 'frequency_ratio', group: 'type' },
+  'campbell.csv': { x: 'mesh_frequency_ratio', y: 'frequency_ratio', group: 'type', lines: 'harmonic' },
   'modes.csv': { x: 'mode', y: 'frequency_Hz', group: 'type' },
   'loci.csv': { x: 'first', y: 'second', group: 'kind' },
   'orbits.csv': { x: 'value', y: 'multiplier_max' },
@@ -64,6 +64,12 @@ export function chartOf(table, caption, labels = {}) {
         }
         return;
       }
+      // A line from the origin through each of its points, for each harmonic of the mesh frequency.
+      if (choice.lines && x.name === choice.x && y.name === choice.y)
+        for (const slope of new Set(table.numbers(choice.lines))) {
+          const end = place.xRange[1];
+          strokeLine(context, place, [0, end], [0, slope * end], { colour: theme().faint });
+        }
       for (const row of rows)
         if (Number.isFinite(xs[row]) && Number.isFinite(ys[row]) && !(logarithmic && !(ys[row] > 0)))
           dot(context, place.x(xs[row]), place.y(ys[row]), 2.4 * place.ratio, theme().series[groupOf(row) % 10]);

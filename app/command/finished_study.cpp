@@ -202,7 +202,11 @@ Donor parse_donor(const std::string& text) {
   } else {
     for (const auto direction : {studies::Direction::up, studies::Direction::down})
       if (which.starts_with(store::direction_word(direction) + "=")) donor.direction = direction;
-    if (!donor.direction) return donor;
+    if (!donor.direction) {
+      if ((which == "up" || which == "down") && !std::filesystem::exists(text))
+        throw InputError(fmt::format("--from {}: give the value, as FOLDER:{}=VALUE", text, which));
+      return donor;
+    }
     const auto read = std::from_chars(which.data() + which.find('=') + 1, end, donor.value);
     donor.unit = std::string(read.ptr, end);
     if (read.ec != std::errc() || !(donor.unit.empty() || donor.unit == "rpm" || donor.unit == "Hz") ||

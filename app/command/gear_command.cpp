@@ -31,7 +31,7 @@ int gear_command(const Arguments& arguments) {
                                  {"summary", folder.file("gear.md").string()}}
                       .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   else
-    print("{}", written.modes);
+    print("{}", written.mode_summary);
   return written.undrawn.empty() ? done : done_with_failures;
 }
 

@@ -73,7 +73,8 @@ int keys_command(const Arguments& arguments) {
   const auto unknown = [&](const std::string& word) { return std::ranges::find(known, word) == known.end(); };
   const auto wrong = std::ranges::find_if(arguments.words, unknown);
   throw InputError("no key has " + words +
-                   (wrong != arguments.words.end() ? input::suggestion(*wrong, known) : "; give one of them"));
+                   (wrong != arguments.words.end() ? input::suggestion(*wrong, known) + "; `keys` alone prints all"
+                                                   : "; give one of them"));
 }
 
 }  // namespace epicyclic::app

@@ -12,10 +12,12 @@
 #include "gear/bearing.hpp"
 #include "gear/ehl_friction.hpp"
 #include "gear/gear_set.hpp"
+#include "gear/kinematics.hpp"
 #include "input/study_model.hpp"
 #include "model/modes.hpp"
 #include "reports/gear_figures.hpp"
 #include "reports/gear_report.hpp"
+#include "reports/markdown.hpp"
 
 namespace epicyclic::reports {
 
@@ -52,6 +54,22 @@ std::string modes_csv(const gear::Stage& stage, const std::vector<model::Mode>& 
   return csv.text();
 }
 
+/// Natural frequencies, and the speeds at which the mesh frequency meets them, for a terminal.
+std::string mode_summary(const gear::Stage& stage, const std::vector<model::Mode>& modes, bool moves) {
+  const double omega_sn = model::scales_of(stage).omega_sn;
+  std::vector<std::vector<std::string>> rows{{"mode", "type", "multiplicity", "frequency [Hz]", "ω/ω_sn"}};
+  if (moves) rows[0].emplace_back("at sun speed [rpm]");
+  for (const model::Mode& mode : modes) {
+    const double omega = mode.frequency_ratio * omega_sn;
+    rows.push_back({std::to_string(rows.size()), std::string(model::to_string(mode.type)),
+                    std::to_string(mode.multiplicity), fmt::format("{:.1f}", omega / (2.0 * std::numbers::pi)),
+                    fmt::format("{:.4f}", mode.frequency_ratio)});
+    if (moves)
+      rows.back().push_back(omega > 0.0 ? fmt::format("{:.0f}", gear::rpm * gear::speeds(stage, omega).sun) : "-");
+  }
+  return aligned(rows) + (moves ? "At the sun speed of a mode the mesh frequency is its natural frequency.\n" : "");
+}
+
 std::string mode_shapes_csv(const gear::Stage& stage, const std::vector<model::Mode>& modes) {
   std::vector<std::string> columns = {"mode", "shape"};
   for (const std::string& name : model::coordinate_names(model::Layout::full, stage.planet_count))
@@ -70,13 +88,23 @@ std::string mode_shapes_csv(const gear::Stage& stage, const std::vector<model::M
 }
 
 /// Intersections of the harmonics of the mesh frequency with the natural frequencies: Omega = frequency_ratio / h.
-std::string campbell_csv(const std::vector<model::Mode>& modes) {
-  CsvWriter csv({"mode", "type", "frequency_ratio", "harmonic", "mesh_frequency_ratio"});
+std::string campbell_csv(const gear::Stage& stage, const std::vector<model::Mode>& modes) {
+  const model::Scales scales = model::scales_of(stage);
+  const bool moves = gear::problems_for_dynamics(stage).empty();
+  std::vector<std::string> columns = {"mode", "type", "frequency_ratio", "harmonic", "mesh_frequency_ratio"};
+  columns.insert(columns.end(), {"mesh_frequency_Hz", "sun_speed_rpm"});
+  if (!moves) columns.pop_back();
+  CsvWriter csv(columns);
   int number = 1;
   for (const model::Mode& mode : modes) {
-    if (mode.frequency_ratio > 0.0)
-      for (int h = 1; h <= harmonics_shown; ++h)
-        csv.row(number, model::to_string(mode.type), mode.frequency_ratio, h, mode.frequency_ratio / h);
+    for (int h = 1; h <= harmonics_shown && mode.frequency_ratio > 0.0; ++h) {
+      const double ratio = mode.frequency_ratio / h;
+      const double frequency = ratio * scales.omega_sn;
+      csv.cell(number).cell(model::to_string(mode.type)).cell(mode.frequency_ratio).cell(h).cell(ratio);
+      csv.cell(frequency / (2.0 * std::numbers::pi));
+      if (moves) csv.cell(gear::rpm * gear::speeds(stage, frequency).sun);
+      csv.end_row();
+    }
     ++number;
   }
   return csv.text();
@@ -276,7 +304,7 @@ GearOutput write_gear_output(const std::filesystem::path& path, const input::Loa
   page.mode_ranges = mode_ranges(input, modes);
   folder.write("modes.csv", out.modes);
   folder.write("mode_shapes.csv", mode_shapes_csv(stage, modes));
-  folder.write("campbell.csv", campbell_csv(modes));
+  folder.write("campbell.csv", campbell_csv(stage, modes));
   if (stage.catalogue) {
     const gear::GearSet set = gear::make_gear_set(stage);
     page.quantities = gear_quantities(set, stage);
@@ -315,6 +343,7 @@ GearOutput gear_words(const input::LoadedInput& input) {
   GearOutput out;
   out.warnings = input::gear_warnings(input);
   out.modes = modes_csv(stage, modes, scales, ranges);
+  out.mode_summary = mode_summary(stage, modes, moves);
   if (stage.catalogue) {
     out.verdicts = contact_verdicts(gear::make_gear_set(stage), stage);
     if (moves) out.verdicts.insert(out.verdicts.begin(), operation_verdict(stage, input.study.mesh_frequency_ratio));

@@ -14,6 +14,7 @@ namespace epicyclic::reports {
 
 struct GearOutput {
   std::string modes;                  ///< text of modes.csv
+  std::string mode_summary;           ///< a table of the natural frequencies for a terminal
   std::vector<std::string> verdicts;  ///< plain sentences for people
   std::vector<std::string> warnings;
   std::vector<std::string> figures;  ///< stems of the figures that were drawn

@@ -485,7 +485,8 @@ void BranchSketch::add_special_points() {
   };
   for (const KindStyle& recording : kind_styles) {
     std::vector<Place> places;
-    std::vector<Place> lettered;
+    // Letters stand to the upper right of a point, but inside the frame: [below][to the left].
+    std::array<std::array<std::vector<Place>, 2>, 2> lettered;
     for (std::size_t i = 0; i < traced_.special.size(); ++i) {
       const SpecialRow& r = traced_.special[i];
       const std::vector<double>& section = traced_.at_special[i].section;
@@ -493,14 +494,22 @@ void BranchSketch::add_special_points() {
       const Place here = {r.value, section[column_]};
       places.push_back(here);
       if (recording.kind == SpecialKind::grazing || r.same_as || !is_free(here)) continue;
-      lettered.push_back(here);
+      constexpr double near_x = 0.05, near_y = 0.07;
+      const bool below = y_.high - here[1] < near_y * height;
+      const bool left = output_.options.to - here[0] < near_x * width;
+      lettered[below ? 1 : 0][left ? 1 : 0].push_back(here);
       taken.push_back(here);
     }
     const SpecialLetters letters = letters_of(recording.kind);
     sketch_.add(
         places, figures::dots(recording.colour, recording.size, recording.type),
         recording.kind == SpecialKind::grazing ? letters.words : fmt::format("{} {}", letters.letters, letters.words));
-    sketch_.letters(lettered, letters.letters, fmt::format("offset 0.9,0.9 textcolor '{}'", recording.colour));
+    for (const bool below : {false, true})
+      for (const bool left : {false, true})
+        if (const auto& places_there = lettered[below ? 1 : 0][left ? 1 : 0]; !places_there.empty())
+          sketch_.letters(places_there, letters.letters,
+                          fmt::format("{} offset {},{} textcolor '{}'", left ? "right" : "left", left ? -0.5 : 0.5,
+                                      below ? -0.9 : 0.9, recording.colour));
   }
 }
 

@@ -15,6 +15,7 @@
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "model/scales.hpp"
+#include "reports/markdown.hpp"
 #include "reports/section_output.hpp"
 #include "reports/speed_words.hpp"
 #include "store/hdf5_file.hpp"
@@ -400,62 +401,10 @@ void write_multipliers(store::Hdf5File& h5, const analysis::FloquetMultipliers& 
 // ---------------------------------------------------------------------------------------------------------------------
 // summary.md
 
-constexpr std::size_t line_width = 98;
-
-/// Columns that a UTF-8 text takes.
-std::size_t columns_of(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));
-}
-
-/// The text in lines; those after the first begin with `indent`.
-std::string wrapped(std::string_view text, std::string_view indent = "") {
-  std::string result;
-  std::size_t column = 0;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    const std::string_view word = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    const std::size_t width = columns_of(word);
-    if (column > 0 && column + 1 + width > line_width) {
-      (result += '\n') += indent;
-      column = columns_of(indent);
-    } else if (column > 0) {
-      result += ' ';
-      ++column;
-    }
-    result += word;
-    column += width;
-  }
-  return result + "\n";
-}
-
 /// A message as a sentence within ours: without a full stop of its own.
 std::string_view unstopped(std::string_view text) { return text.substr(0, text.find_last_not_of(". ") + 1); }
 
 std::string bullet(const std::string& text) { return wrapped("- " + text, "  "); }
-
-/// A Markdown table that is readable as text: cells padded, the first column to the left, numbers to the right.
-std::string aligned(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> width(rows.front().size(), 3);
-  for (const auto& row : rows)
-    for (std::size_t j = 0; j < row.size(); ++j) width[j] = std::max(width[j], columns_of(row[j]));
-  std::string text;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    text += '|';
-    for (std::size_t j = 0; j < rows[i].size(); ++j) {
-      const std::string space(width[j] - columns_of(rows[i][j]), ' ');
-      text += j == 0 ? fmt::format(" {}{} |", rows[i][j], space) : fmt::format(" {}{} |", space, rows[i][j]);
-    }
-    text += '\n';
-    if (i > 0) continue;
-    text += '|';
-    for (std::size_t j = 0; j < width.size(); ++j)
-      text += j == 0 ? std::string(width[j] + 2, '-') + "|" : std::string(width[j] + 1, '-') + ":|";
-    text += '\n';
-  }
-  return text;
-}
 
 /// An exponent per unit of s, as its two readings.
 std::string exponent_text(const analysis::Estimate& per_s, double omega) {
@@ -568,6 +517,20 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
   return text;
 }
 
+/// Forces of the bearings of planets and sun; nothing of a stage without them.
+std::string bearings_text(const studies::StageRecord& stage) {
+  std::vector<std::vector<std::string>> rows{{"bearing", "mean [N]", "max [N]"}};
+  const auto add = [&](const std::string& name, const studies::Course& force) {
+    if (std::isfinite(force.largest))
+      rows.push_back({name, fmt::format("{:.5g}", force.mean), fmt::format("{:.5g}", force.largest)});
+  };
+  for (std::size_t i = 0; i < stage.planet_bearing.size(); ++i)
+    add(fmt::format("planet {}", i + 1), stage.planet_bearing[i]);
+  add("sun", stage.sun_bearing);
+  if (rows.size() == 1) return {};
+  return "\n## Bearings\n\n" + aligned(rows) + "\n" + wrapped("Magnitude of the force, its mean and largest value.");
+}
+
 /// Meshes with tensile forces: which ones, how large, how often and why.
 std::string tensile_text(const RunOutput& output, const RunResult& r) {
   std::vector<std::vector<std::string>> rows{{"mesh with tensile force", "up to [N]", "over F_0", "of the time"}};
@@ -608,8 +571,12 @@ std::string meshes_text(const RunOutput& output, const RunResult& r) {
               "sharing of the planets, N mean F / sum of the means over one kind of mesh; drive, "
               "loss, back: parts of the time on the driving "
               "flank, between the flanks, on the back; losses: times that the driving flank "
-              "was left, per mesh period. Over {:g} mesh periods, at {} phases of each.",
-              r.static_force, record_periods(r.history), r.history.phases));
+              "was left, per mesh period. Over {:g} mesh periods.",
+              r.static_force, record_periods(r.history)));
+  text += "\n" + wrapped(fmt::format(
+                     "`history.csv` and `results.h5` have {} uniform samples of each mesh period. The largest values "
+                     "above are of finer samples and can exceed theirs.",
+                     r.history.phases));
   text += tensile_text(output, r);
   text += "\n" + wrapped(fmt::format("Planets' spread: {:.3g} b_c, the largest difference between their deflections.",
                                      r.point.meshes.planet_spread));
@@ -818,7 +785,7 @@ std::string run_summary(const RunOutput& output, const RunResult& r) {
     return text + work + files_text(output, r);
   }
   text += "\n## Regime\n\n" + regime_text(output, r);
-  if (!r.meshes.empty()) text += meshes_text(output, r);
+  if (!r.meshes.empty()) text += meshes_text(output, r) + bearings_text(r.point.meshes);
   if (!r.spectra.empty()) text += spectra_text(r);
   if (has_exponents(r)) text += exponents_text(r);
   if (!r.exponents.evolution.reached())
