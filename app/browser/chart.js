@@ -1,5 +1,5 @@
 // A figure of any table: one column of numbers over another, in colours by a column of words.
-import { Panel, View, dot, strokeLine } from './panel.js';
+import { Panel, View, dot, nearestRow, strokeLine } from './panel.js';
 import { theme } from './theme.js';
 import { axisLabel, element, factorOf, number, rich } from './words.js';
 import { extent } from './details.js';
@@ -74,17 +74,11 @@ export function chartOf(table, caption, labels = {}) {
         if (Number.isFinite(xs[row]) && Number.isFinite(ys[row]) && !(logarithmic && !(ys[row] > 0)))
           dot(context, place.x(xs[row]), place.y(ys[row]), 2.4 * place.ratio, theme().series[groupOf(row) % 10]);
     },
-    hover: ({ left, top, ...place }) => {
-      let best = null;
-      for (let row = 0; row < table.rows; ++row) {
-        const dx = (place.x(xs[row]) - place.leftOfPlot) / place.ratio - left;
-        const dy = (place.y(ys[row]) - place.topOfPlot) / place.ratio - top;
-        const apart = dx * dx + dy * dy;
-        if (apart < 400 && (!best || apart < best.apart)) best = { apart, row };
-      }
-      if (!best) return null;
-      const lines = [x, y].map(({ name }, k) => `${name} = ${number([xs, ys][k][best.row])}`);
-      const named = words.map(({ name }) => table.word(name, best.row)).filter(Boolean);
+    hover: (place) => {
+      const nearest = nearestRow(place, xs, ys);
+      if (nearest === null) return null;
+      const lines = [x, y].map(({ name }, k) => `${name} = ${number([xs, ys][k][nearest])}`);
+      const named = words.map(({ name }) => table.word(name, nearest)).filter(Boolean);
       return { text: [...lines, ...(named.length > 0 ? [named.join(', ')] : [])].join('\n') };
     },
   });

@@ -1,5 +1,5 @@
 // What is known of one point of a sweep, of one orbit of a branch, or of a special point.
-import { Panel, View, dot, rangeOf, releasePanels, strokeLine } from './panel.js';
+import { Panel, View, dot, nearestRow, rangeOf, releasePanels, strokeLine } from './panel.js';
 import { theme } from './theme.js';
 import { axisLabel, capital, element, factorOf, number, rich, symbol, tableOf, unitText, withError } from './words.js';
 import { errorOf, specialName } from './diagram.js';
@@ -143,6 +143,12 @@ export function sectionFigure(section, first, last, colour) {
         const radius = (xs.length > 400 ? 1.4 : xs.length > 12 ? 2.2 : 3.5) * place.ratio;
         for (let i = 0; i < xs.length; ++i) dot(context, place.x(xs[i]), place.y(ys[i]), radius, colour());
       },
+      hover: (place) => {
+        const [xs, ys] = [values(xc), values(yc)];
+        const row = nearestRow(place, xs, ys);
+        if (row === null) return null;
+        return { text: [xc, yc].map(({ name }, k) => `${name} = ${number([xs, ys][k][row])}`).join('\n') };
+      },
     },
   );
   const chooser = (label, current, action) => {
@@ -209,6 +215,12 @@ function spectrumFigure(study, row, colour) {
           ys().map((y) => (y > 0 ? y : NaN)),
           { colour: colour(), width: 1.2 },
         ),
+      hover: (place) => {
+        const all = ys();
+        const row = nearestRow(place, xs, all);
+        if (row === null) return null;
+        return { text: `frequency ${number(xs[row], 4)} ω_m\namplitude ${number(all[row], 4)} ${unitText('b_c')}` };
+      },
     },
   );
   return figure.host;

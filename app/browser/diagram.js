@@ -569,6 +569,17 @@ export class Diagram {
     }
   }
 
+  /// The point of a shown line with the nearest abscissa; of the chosen line, if that is one of two.
+  nearestAt(x) {
+    let best = null;
+    for (const line of this.lines.filter(({ shown }) => shown)) {
+      const row = line.rows[nearestIndex(line.rows, this.x(line), x)];
+      const apart = Math.abs(this.x(line)[row] - x);
+      if (!best || apart < best.apart || (apart === best.apart && line === this.chosen?.line)) best = { line, row, apart };
+    }
+    return best;
+  }
+
   /// To the next point of the same line, or to the next line at the same place.
   step(by, across) {
     const shown = this.lines.filter((line) => line.shown);
@@ -646,7 +657,12 @@ export class Diagram {
         view: this.view,
         sync: `diagram${Diagram.count}`,
         xLabel: () => this.axis.label,
-        pick: (found) => this.choose(found),
+        pick: (found) => {
+          this.choose(found);
+          // In one column the panel of the point is below the diagram.
+          if (innerWidth < 1280) this.details.scrollIntoView({ block: 'nearest' });
+        },
+        at: (x) => this.nearestAt(x),
         region: live && ((range) => live.refine(this.shownRange(range))),
         ...options,
       });

@@ -12,6 +12,24 @@ export function rangeOf(low, high, margin) {
   return [low - margin * wide, high + margin * wide];
 }
 
+/// Values on a logarithmic axis that are labelled: powers of ten, over less than three decades 2 and 5 times them, too.
+function isLabelled(value, [low, high]) {
+  const mantissa = Number(value.toExponential(6).split('e')[0]);
+  return mantissa === 1 || (high < 1000 * low && (mantissa === 2 || mantissa === 5));
+}
+
+/// The row of values that is nearest to the cursor, at most 20 pixels away; null: none is.
+export function nearestRow({ left, top, ...place }, xs, ys) {
+  let best = null;
+  for (let row = 0; row < xs.length; ++row) {
+    const dx = (place.x(xs[row]) - place.leftOfPlot) / place.ratio - left;
+    const dy = (place.y(ys[row]) - place.topOfPlot) / place.ratio - top;
+    const apart = dx * dx + dy * dy;
+    if (apart < 400 && (!best || apart < best.apart)) best = { apart, row };
+  }
+  return best?.row ?? null;
+}
+
 const all = new Set();
 onTheme(() => all.forEach((panel) => panel.build()));
 
@@ -31,7 +49,10 @@ export class View {
   show(x) {
     if (!finite(x)) return;
     const wide = Math.max(x[1] - x[0], 1e-9 * (Math.abs(x[0]) + Math.abs(x[1]) || 1));
-    this.x = [x[0], x[0] + wide];
+    // There is nothing beyond the whole range.
+    const [low, high] = this.full;
+    const from = Math.max(low, Math.min(x[0], high - wide));
+    this.x = wide < high - low ? [from, from + wide] : [low, high];
     for (const panel of this.panels) panel.redraw();
   }
 
@@ -53,7 +74,8 @@ export class View {
 
 export class Panel {
   /// @param options  host, view, height, xLabel(), yLabel(), range(x): that of the ordinate, draw(context, place, panel),
-  ///                 hover(place): the text of what is there and whatever pick() takes, pick(found), xAxis, logarithmic,
+  ///                 hover(place): the text of what is there and whatever pick() takes, pick(found), at(x): what is picked
+  ///                 where nothing is found, xAxis, logarithmic,
   ///                 region([from, to]) of the abscissa: a drag with Ctrl
   constructor(options) {
     this.options = options;
@@ -79,14 +101,18 @@ export class Panel {
   build() {
     this.plot?.destroy();
     const colours = theme();
-    const axis = (label, size) => ({
+    const axis = (label, size, ordinate) => ({
       label,
       labelSize: 18,
       size,
       stroke: colours.ink,
       font: '12px system-ui, sans-serif',
       labelFont: '13px system-ui, sans-serif',
-      values: (_, splits) => splits.map((value) => (value === null || value === undefined ? '' : number(value, 12))),
+      values: (plot, splits) => {
+        const { min, max } = plot.scales.y;
+        const none = (value) => value === null || value === undefined || (ordinate && !isLabelled(value, [min, max]));
+        return splits.map((value) => (none(value) ? '' : number(value, 12)));
+      },
       grid: { stroke: colours.grid, width: 1 },
       ticks: { stroke: colours.grid, width: 1, size: 5 },
     });
@@ -104,7 +130,7 @@ export class Panel {
         },
         axes: [
           options.xAxis === false ? { ...axis(undefined, 22), labelSize: 0 } : axis(options.xLabel(), 32),
-          axis(options.yLabel(), 58),
+          axis(options.yLabel(), 58, options.logarithmic?.()),
         ],
         series: [{}, { paths: () => null, points: { show: false } }],
         cursor: {
@@ -230,13 +256,19 @@ export class Panel {
     this.tip.style.top = `${over.top - box.top + Math.max(0, top - 10)}px`;
   }
 
+  /// What was found at the cursor, or what the owner has at this abscissa.
+  pickAt(found, left = this.plot.cursor.left) {
+    const picked = found ?? this.options.at?.(this.plot.posToVal(left, 'x'));
+    if (picked) this.options.pick?.(picked);
+  }
+
   listen(over) {
     let from = null; // of a pan
     const fingers = new Map();
     let pinched = null; // values under two fingers
     const places = () => [...fingers.values()].sort((a, b) => a - b);
     over.addEventListener('click', () => {
-      if (!this.dragged && this.found) this.options.pick?.(this.found);
+      if (!this.dragged) this.pickAt(this.found);
       this.dragged = false;
     });
     over.addEventListener(
@@ -309,7 +341,7 @@ export class Panel {
             left: event.clientX - box.left,
             top: event.clientY - box.top,
           });
-          if (found) this.options.pick?.(found);
+          this.pickAt(found, event.clientX - box.left);
         }
         from = null;
       });
