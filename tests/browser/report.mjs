@@ -134,6 +134,23 @@ await checks.run(browser, async () => {
       );
     }
 
+    // A click beside all points chooses the nearest value; there is nothing beyond the whole range.
+    await page.click(left + width - 3, top + 3);
+    const last = await chosenValue(page);
+    expect(last > Math.max(clicked, 2.2), `a click in the corner chooses ${last}`);
+    const whole = await picture(page);
+    await page.key('-', '-');
+    expect((await picture(page)) === whole, 'zooming out shows more than the whole range');
+    // A point of the Poincaré section has a reading. The only point of period 1 is in the middle.
+    const section = await page.value(
+      "(() => { const box = document.querySelector('.details .u-over').getBoundingClientRect(); return [box.left + box.width / 2, box.top + box.height / 2]; })()",
+    );
+    await page.mouse('mouseMoved', section[0] - 2, section[1]);
+    await page.mouse('mouseMoved', ...section);
+    await page.frame();
+    const reading = await tip(page);
+    expect(/delta_sp_1 = /.test(reading), `hover over the section shows '${reading}'`);
+
     // Other quantities, abscissae and units.
     const before = await picture(page);
     await page.value(
