@@ -131,7 +131,7 @@ std::vector<StageColumn> stage_columns() {
   for (const Kind& kind : kinds)
     add(all, std::string("dynamic_factor_") + kind.suffix, "1",
         std::string("largest force of any ") + kind.name +
-            " mesh over the static one: dynamics and load sharing together",
+            " mesh over the static force F_0 of a sun-planet mesh: dynamics and load sharing",
         Number([meshes = kind.meshes](const StageRecord& r) { return r.dynamic_factor(r.*meshes); }));
   for (const Kind& kind : kinds)
     add(all, std::string("kv_") + kind.suffix, "1",
