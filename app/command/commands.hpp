@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "store/point_store.hpp"
+
 namespace epicyclic::input {
 struct Drawing;
 }
@@ -55,6 +57,8 @@ struct Arguments {
   std::vector<std::string> sets;
   int threads = 1;
   bool json = false;
+  store::Part part{};              ///< of sweep, map and basins: the share to compute
+  std::vector<std::filesystem::path> merged;  ///< of merge: folders with points of this study
   bool report = false;             ///< write the page of `report` too
   std::vector<std::string> from;   ///< points to start from, of finished studies [finished_study.hpp]
   std::filesystem::path grow;      ///< of sweep, map and basins: a finished study whose points are taken; empty: none

@@ -269,6 +269,7 @@ CLI::App* add_to(CLI::App& cli, const Command& command, Arguments& arguments) {
     sub->add_flag("--report", arguments.report, "also write FOLDER/report.html, as `report` does");
   }
   command.options(*sub, arguments);
+  if (command.takes >= Takes::output && sub->get_option_no_throw("--part") == nullptr) add_part_refusal(*sub);
   sub->footer(examples_text(command.name));
   return sub;
 }
@@ -338,6 +339,7 @@ int run(int argc, char** argv) {
     const Command& command = commands.at(static_cast<std::size_t>(parsed));
     if (ranks.size() > 1 && !command.shares_work)
       throw InputError("only sweep, map, basins, calibrate and robustness run on several processes");
+    if (ranks.size() > 1 && arguments.part.of > 0) throw InputError("--part: a part is computed by one process");
     find_input(command, arguments, ranks.rank() == 0);
     if (command.writes()) stop_on_signals(ranks.size() > 1 ? patience_of_ranks : patience);
     const int result = command.run(arguments);

@@ -1,6 +1,7 @@
 #include "points.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <initializer_list>
 #include <iterator>
@@ -8,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,7 +42,48 @@ namespace {
 
 bool computed(const studies::PointSummary& r) { return r.outcome == integrate::Outcome::reached; }
 
-/// Computes the points that the store does not have.
+/// Chains are dealt to the parts in turn. Nothing: the plan has no more.
+std::optional<std::size_t> chain_of_part(std::size_t chain, const studies::SweepPlan& plan) {
+  if (chain >= plan.chains.size()) return std::nullopt;
+  return chain;
+}
+
+/// The points of a part that the store does not have, and all of them.
+struct PartPoints {
+  std::size_t missing = 0, all = 0;
+};
+
+PartPoints points_of(const store::Part& part, const studies::SweepPlan& plan, const store::PointStore& store) {
+  PartPoints points;
+  for (std::size_t chain = part.number - 1; chain < plan.chains.size(); chain += part.of) {
+    points.all += plan.chains[chain].size();
+    for (const std::size_t point : plan.chains[chain]) points.missing += store.holds(point) ? 0 : 1;
+  }
+  return points;
+}
+
+/// States which points came from parts, and which parts never came.
+void report_parts(const std::string& folder, const store::PointStore& store, const studies::SweepPlan& plan,
+                  std::string_view noun) {
+  const std::map<store::Part, std::size_t> parts = store.parts();
+  if (parts.empty()) return;
+  std::size_t points = 0;
+  std::map<std::size_t, std::set<std::size_t>> came;  // numbers of parts by how many they are
+  for (const auto& [part, held] : parts) {
+    points += held;
+    came[part.of].insert(part.number);
+  }
+  print_message("{}: {} of {} {} came from parts\n", folder, points, plan.points.size(), noun);
+  if (store.size() == plan.points.size()) return;
+  for (const auto& [of, numbers] : came) {
+    std::vector<std::string> absent;
+    for (std::size_t number = 1; number <= std::min(of, plan.chains.size()); ++number)
+      if (!numbers.contains(number)) absent.push_back(fmt::format("{}/{}", number, of));
+    if (!absent.empty()) print_message("{}: never came: part {}\n", folder, fmt::join(absent, ", "));
+  }
+}
+
+/// Computes the points that the store does not have; of a part, those of its chains.
 /// @param leader  of the other ranks; null: there are none
 /// @param lanes   use of the lanes, if there were any
 /// @returns how many points of all failed
@@ -49,9 +92,16 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
                             const studies::ModelAtPoint& model_at, store::PointStore& store, SweepLeader* leader,
                             studies::LaneUse& lanes) {
   const studies::RecordingOptions& recording = input.study.recording();
+  const store::Part& part = arguments.part;
   std::size_t failed = 0;
   studies::SweepRun run;
   run.threads = arguments.threads;
+  std::atomic<std::size_t> next{part.number - 1};
+  if (part.of > 0) {
+    run.next_chain = [&] { return chain_of_part(next.fetch_add(part.of), plan); };
+    run.threads_of_all = arguments.threads * static_cast<int>(part.of);
+    run.process = part.number - 1;
+  }
   run.stop = &stop_requested();
   run.lane_use = &lanes;
   run.done.resize(plan.points.size());
@@ -215,6 +265,52 @@ void print_result(const Arguments& arguments, std::string_view noun, const Compu
           next.empty() ? next : "next: " + next);
 }
 
+/// Computes a part of the points into the folder, beside other parts, and writes no results.
+int compute_part(const Arguments& arguments, std::string_view command, std::string_view noun,
+                 const input::LoadedInput& input, const studies::SweepPlan& plan,
+                 const studies::ModelAtPoint& model_at) {
+  const store::Part& part = arguments.part;
+  const std::string name = fmt::format("part {}/{}", part.number, part.of);
+  const std::string identity = identity_of(input, command);
+  store::OutputFolder folder(arguments.output, identity, false, store::FolderUse::shared);
+  const std::string where = folder.path().string();
+  if (const auto code = refuse_or_finish(folder, input)) return *code;
+  if (folder.is_first()) {
+    (void)write_inputs(folder, input);
+    if (!folder.share()) {
+      print_message("{}: is in use by another process\n", where);
+      return folder_in_use;
+    }
+  }
+  try {
+    store::PointStore store(folder.path(), identity, plan.points.size(), part);
+    for (const auto& [journal, bytes] : store.cut_tails()) report_cut_tail(journal, bytes);
+    PartPoints points = points_of(part, plan, store);
+    const bool nothing_to_do = points.missing == 0;
+    if (!nothing_to_do) {
+      studies::LaneUse lanes;
+      (void)compute_missing(arguments, command, noun, input, plan, model_at, store, nullptr, lanes);
+      folder.require_there();
+      points = points_of(part, plan, store);
+    }
+    if (points.missing > 0) {
+      print_message("{}: {} stopped after {} of {} {}; re-run the same command to resume\n", where, name,
+                    points.all - points.missing, points.all, noun);
+      return stopped_early;
+    }
+    if (arguments.json)
+      print("{}\n", nlohmann::json{{"folder", where}, {"part", part.number}, {"of", part.of}, {"points", points.all}}
+                        .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    else
+      print("{}: {} is complete{}: {} of {} {}\n", where, name, nothing_to_do ? " already" : "", points.all,
+            plan.points.size(), noun);
+    return done;
+  } catch (const store::JournalInUse&) {
+    print_message("{}: another process computes {}\n", where, name);
+    return stopped_early;
+  }
+}
+
 int lead(const Arguments& arguments, std::string_view command, std::string_view noun,
          const std::vector<ResultsPart>& parts, const AfterPoints& after, SweepLeader* leader) {
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
@@ -227,6 +323,8 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   if (!arguments.quiet && command == "sweep" && input.study.sweep().axis.name != studies::speed_parameter)
     print_message("operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
 
+  if (arguments.part.of > 0) return compute_part(arguments, command, noun, input, plan, model_at);
+
   std::unique_ptr<GrownStudy> grown;
   if (!arguments.grow.empty()) grown = std::make_unique<GrownStudy>(arguments.grow, input, plan, command);
 
@@ -238,6 +336,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
 
   store::PointStore store(folder.path(), identity, plan.points.size());
   for (const auto& [journal, bytes] : store.cut_tails()) report_cut_tail(journal, bytes);
+  report_parts(folder.path().string(), store, plan, noun);
   std::size_t taken = 0;
   if (grown) {
     taken = grown->take_into(store);
