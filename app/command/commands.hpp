@@ -88,6 +88,7 @@ int report_command(const Arguments& arguments);
 /// @throws InputError
 std::filesystem::path write_report(const std::vector<std::filesystem::path>& folders,
                                    const std::filesystem::path& output);
+int merge_command(const Arguments& arguments);
 int serve_command(const Arguments& arguments);
 int keys_command(const Arguments& arguments);
 int init_command(const Arguments& arguments);

@@ -184,6 +184,13 @@ void add_report_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("--json", arguments.json, "print the name of the page as JSON");
 }
 
+void add_merge_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("FOLDER", arguments.merged, "folders with parts of the same study")->required();
+  command.add_option("-o,--output", arguments.output, "folder for the results")->required();
+  command.add_flag("--json", arguments.json, "print the summary as JSON");
+  add_threads(command, arguments, "number of threads; the results do not depend on it");
+}
+
 void add_serve_options(CLI::App& command, Arguments& arguments) {
   command.add_option("FOLDER", arguments.report_folders, "folders of studies, to be shown on one page")->required();
   command.add_option("--port", arguments.port, "port of 127.0.0.1; default: any that is free")
@@ -228,6 +235,8 @@ std::vector<Command> all_commands() {
        Takes::output, no_options, true},
       {"robustness", "compute for which part of the unpublished parameters each claim holds", robustness_command,
        Takes::output, no_options, true},
+      {"merge", "put parts of a study together, from folders of their own, and compute what is missing", merge_command,
+       Takes::finished, add_merge_options},
       {"assert", "compare special points of finished branches with expected ones", assert_command, Takes::finished,
        add_assert_options},
       {"plot", "draw figures of finished studies, several studies in one figure; compute nothing", plot_command,

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <cstdint>
+#include <filesystem>
 #include <initializer_list>
 #include <iterator>
 #include <map>
@@ -14,16 +16,21 @@
 #include <utility>
 #include <vector>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/atomic_file.hpp"
 #include "core/counted.hpp"
+#include "core/errors.hpp"
 #include "failure.hpp"
 #include "folder.hpp"
 #include "grow.hpp"
 #include "host.hpp"
+#include "input/json_source.hpp"
 #include "input/study_input.hpp"
 #include "input/study_model.hpp"
+#include "kind_commands.hpp"
 #include "progress.hpp"
 #include "ranks/ranks.hpp"
 #include "ranks/shared_sweep.hpp"
@@ -31,6 +38,7 @@
 #include "shell_word.hpp"
 #include "stop.hpp"
 #include "store/output_folder.hpp"
+#include "store/point_record.hpp"
 #include "store/point_store.hpp"
 #include "streams.hpp"
 #include "studies/classification.hpp"
@@ -265,6 +273,46 @@ void print_result(const Arguments& arguments, std::string_view noun, const Compu
           next.empty() ? next : "next: " + next);
 }
 
+/// The identity of the study in a folder.
+/// @throws InputError if there is none
+std::string identity_of_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(folder / "run.json", error)) {
+    const input::JsonSource run = input::read_json_file(folder / "run.json");
+    if (run.complete && run.value.is_object() && run.value.contains("identity") && run.value["identity"].is_string())
+      return run.value["identity"].get<std::string>();
+  }
+  throw InputError(folder.string() + ": contains no study");
+}
+
+/// Replaces the resolved input of a folder by the files that it was made of, for the copies in another folder.
+void use_files_of(const std::filesystem::path& folder, input::LoadedInput& input) {
+  const auto read = [&](const char* name) {
+    const std::filesystem::path file = folder / name;
+    const FileDescriptor descriptor = store::open_data_file(file, O_RDONLY);
+    if (!descriptor.is_open()) throw_output_error(file, "open", errno);
+    return input::RawFile{name, read_all(descriptor.get(), file)};
+  };
+  input.study_file = read("input.json");
+  std::error_code error;
+  if (std::filesystem::exists(folder / "input.stage.json", error)) input.stage_file = read("input.stage.json");
+}
+
+/// Puts the points of a folder with parts into the store.
+void merge_into(store::PointStore& store, const std::filesystem::path& folder, const std::string& identity,
+                std::size_t points, std::string_view noun) {
+  const store::PointStore from(folder, identity, points, store::Journal::Use::read);
+  for (std::size_t point = 0; point < points; ++point) {
+    if (!from.holds(point)) continue;
+    const studies::PointResult result = from.read(point);
+    if (!store.holds(point))
+      store.append(result);
+    else if (store::encode_point(store.read(point)) != store::encode_point(result))
+      throw store::DamagedData(fmt::format("{}: its record of point {} differs from another", folder.string(), point));
+  }
+  print_message("{}: has {} of {} {}\n", folder.string(), from.size(), points, noun);
+}
+
 /// Computes a part of the points into the folder, beside other parts, and writes no results.
 int compute_part(const Arguments& arguments, std::string_view command, std::string_view noun,
                  const input::LoadedInput& input, const studies::SweepPlan& plan,
@@ -313,7 +361,8 @@ int compute_part(const Arguments& arguments, std::string_view command, std::stri
 
 int lead(const Arguments& arguments, std::string_view command, std::string_view noun,
          const std::vector<ResultsPart>& parts, const AfterPoints& after, SweepLeader* leader) {
-  const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
+  input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
+  if (!arguments.merged.empty()) use_files_of(arguments.merged.front(), input);
   require_kind(input, arguments, command);
   const studies::SweepPlan plan = input::plan_of(input.study);
   const studies::ModelAtPoint model_at = input::model_at_point(input);
@@ -329,6 +378,12 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   if (!arguments.grow.empty()) grown = std::make_unique<GrownStudy>(arguments.grow, input, plan, command);
 
   const std::string identity = identity_of(input, command);
+  for (const std::filesystem::path& from : arguments.merged) {
+    if (identity_of_folder(from) == identity) continue;
+    print_message("{}: contains another study than {}, or one of another version of the numerics\n", from.string(),
+                  arguments.merged.front().string());
+    return other_study;
+  }
   if (leader != nullptr) leader->gather(arguments, identity);
   Session session(arguments, input, identity, arguments.threads, arguments.ranks->size());
   if (const auto code = session.exit_code()) return *code;
@@ -336,6 +391,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
 
   store::PointStore store(folder.path(), identity, plan.points.size());
   for (const auto& [journal, bytes] : store.cut_tails()) report_cut_tail(journal, bytes);
+  for (const std::filesystem::path& from : arguments.merged) merge_into(store, from, identity, plan.points.size(), noun);
   report_parts(folder.path().string(), store, plan, noun);
   std::size_t taken = 0;
   if (grown) {
@@ -391,6 +447,18 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
 }
 
 }  // namespace
+
+int merge_command(const Arguments& arguments) {
+  const std::filesystem::path& first = arguments.merged.front();
+  for (const std::filesystem::path& folder : arguments.merged) (void)identity_of_folder(folder);
+  Arguments of = arguments;
+  of.input = first / "input.resolved.json";
+  const std::string kind(input::load_input(of.input).study.kind());
+  if (kind != "sweep" && kind != "map" && kind != "basins")
+    throw InputError(
+        fmt::format("{}: is a study of kind {}; only sweep, map and basins have parts", first.string(), kind));
+  return command_of(kind).run(of);
+}
 
 int points_command(const Arguments& arguments, std::string_view command, std::string_view noun,
                    const std::vector<ResultsPart>& parts, const AfterPoints& after) {

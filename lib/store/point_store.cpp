@@ -66,7 +66,10 @@ std::string part_journal_name(const Part& part) {
 
 PointStore::PointStore(std::filesystem::path folder, std::string identity, std::size_t points, Journal::Use use)
     : folder_(std::move(folder)), identity_(std::move(identity)), use_(use), places_(points) {
-  open(folder_ / own_, use_);
+  // A folder of parts may have journals of parts alone.
+  std::error_code error;
+  const OtherJournals others = use_ == Journal::Use::read ? journals_in(folder_) : OtherJournals{};
+  if (others.parts.empty() || std::filesystem::exists(folder_ / own_, error)) open(folder_ / own_, use_);
   read_others();
 }
 
@@ -94,7 +97,8 @@ void PointStore::read_others() {
     Journal& journal = open(folder_ / name, use_);
     if (use_ == Journal::Use::append) journal.release();
   };
-  if (std::error_code error; std::filesystem::exists(folder_ / "journal.bin", error)) read("journal.bin");
+  if (std::error_code error; own_ != "journal.bin" && std::filesystem::exists(folder_ / "journal.bin", error))
+    read("journal.bin");
   const OtherJournals others = journals_in(folder_);
   for (const int rank : others.ranks) read(rank_journal_name(rank));
   for (const Part& part : others.parts) {
