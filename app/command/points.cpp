@@ -50,7 +50,7 @@ namespace {
 
 bool computed(const studies::PointSummary& r) { return r.outcome == integrate::Outcome::reached; }
 
-/// Chains are dealt to the parts in turn. Nothing: the plan has no more.
+/// Chains are dealt to the parts by their index. Nothing: the plan has no more.
 std::optional<std::size_t> chain_of_part(std::size_t chain, const studies::SweepPlan& plan) {
   if (chain >= plan.chains.size()) return std::nullopt;
   return chain;
