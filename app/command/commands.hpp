@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "store/point_store.hpp"
+
 namespace epicyclic::input {
 struct Drawing;
 }
@@ -55,6 +57,8 @@ struct Arguments {
   std::vector<std::string> sets;
   int threads = 1;
   bool json = false;
+  store::Part part{};              ///< of sweep, map and basins: the share to compute
+  std::vector<std::filesystem::path> merged;  ///< of merge: folders with points of this study
   bool report = false;             ///< write the page of `report` too
   std::vector<std::string> from;   ///< points to start from, of finished studies [finished_study.hpp]
   std::filesystem::path grow;      ///< of sweep, map and basins: a finished study whose points are taken; empty: none
@@ -84,6 +88,7 @@ int report_command(const Arguments& arguments);
 /// @throws InputError
 std::filesystem::path write_report(const std::vector<std::filesystem::path>& folders,
                                    const std::filesystem::path& output);
+int merge_command(const Arguments& arguments);
 int serve_command(const Arguments& arguments);
 int keys_command(const Arguments& arguments);
 int init_command(const Arguments& arguments);

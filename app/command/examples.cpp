@@ -51,6 +51,8 @@ constexpr Row rows[] = {
     {"calibrate", {"search for parameters that meet claims", "epicyclic calibrate claims.json -o out/calibrated"}},
     {"robustness",
      {"how much of the parameters' ranges meets a claim", "epicyclic robustness claims.json -o out/draws"}},
+    {"sweep", {"part 2 of 8", "epicyclic sweep tang2020_speed -o out/speed --part 2/8"}},
+    {"merge", {"two parts in folders of their own", "epicyclic merge out/part1 out/part2 -o out/speed"}},
     {"assert",
      {"compare with recorded points, for CI",
       "epicyclic assert out/branches expected.json --junit "

@@ -143,6 +143,9 @@ std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const inp
     case store::FolderOutcome::in_use:
       print_message("{}: is in use by another process\n", where);
       return folder_in_use;
+    case store::FolderOutcome::in_parts:
+      print_message("{}: parts of a study are computed in it; repeat the command when they have ended\n", where);
+      return folder_in_use;
     case store::FolderOutcome::fresh:
     case store::FolderOutcome::resumable:
       return std::nullopt;

@@ -42,8 +42,11 @@ EPICYCLIC_KINDS(EPICYCLIC_KIND)
 /// @throws std::out_of_range if no kind of that name has a command
 [[nodiscard]] const Command& command_of(std::string_view kind);
 
-/// --grow, for studies of points that a smaller one may be part of.
-void add_grow_option(CLI::App& command, Arguments& arguments);
+/// --grow and --part, for studies of points: a smaller one may be part of them, and each point can be computed alone.
+void add_points_options(CLI::App& command, Arguments& arguments);
+
+/// Refuses --part, for commands that compute no points one by one.
+void add_part_refusal(CLI::App& command);
 
 /// --from, for studies that may start from a point of a finished one; INPUT is then optional.
 void add_start_option(CLI::App& command, Arguments& arguments);

@@ -184,6 +184,13 @@ void add_report_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("--json", arguments.json, "print the name of the page as JSON");
 }
 
+void add_merge_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("FOLDER", arguments.merged, "folders with parts of the same study")->required();
+  command.add_option("-o,--output", arguments.output, "folder for the results")->required();
+  command.add_flag("--json", arguments.json, "print the summary as JSON");
+  add_threads(command, arguments, "number of threads; the results do not depend on it");
+}
+
 void add_serve_options(CLI::App& command, Arguments& arguments) {
   command.add_option("FOLDER", arguments.report_folders, "folders of studies, to be shown on one page")->required();
   command.add_option("--port", arguments.port, "port of 127.0.0.1; default: any that is free")
@@ -228,6 +235,8 @@ std::vector<Command> all_commands() {
        Takes::output, no_options, true},
       {"robustness", "compute for which part of the unpublished parameters each claim holds", robustness_command,
        Takes::output, no_options, true},
+      {"merge", "put parts of a study together, from folders of their own, and compute what is missing", merge_command,
+       Takes::finished, add_merge_options},
       {"assert", "compare special points of finished branches with expected ones", assert_command, Takes::finished,
        add_assert_options},
       {"plot", "draw figures of finished studies, several studies in one figure; compute nothing", plot_command,
@@ -269,6 +278,7 @@ CLI::App* add_to(CLI::App& cli, const Command& command, Arguments& arguments) {
     sub->add_flag("--report", arguments.report, "also write FOLDER/report.html, as `report` does");
   }
   command.options(*sub, arguments);
+  if (command.takes >= Takes::output && sub->get_option_no_throw("--part") == nullptr) add_part_refusal(*sub);
   sub->footer(examples_text(command.name));
   return sub;
 }
@@ -338,6 +348,7 @@ int run(int argc, char** argv) {
     const Command& command = commands.at(static_cast<std::size_t>(parsed));
     if (ranks.size() > 1 && !command.shares_work)
       throw InputError("only sweep, map, basins, calibrate and robustness run on several processes");
+    if (ranks.size() > 1 && arguments.part.of > 0) throw InputError("--part: a part is computed by one process");
     find_input(command, arguments, ranks.rank() == 0);
     if (command.writes()) stop_on_signals(ranks.size() > 1 ? patience_of_ranks : patience);
     const int result = command.run(arguments);

@@ -1,27 +1,36 @@
 #include "points.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <cerrno>
 #include <cstdint>
+#include <filesystem>
 #include <initializer_list>
 #include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/atomic_file.hpp"
 #include "core/counted.hpp"
+#include "core/errors.hpp"
 #include "failure.hpp"
 #include "folder.hpp"
 #include "grow.hpp"
 #include "host.hpp"
+#include "input/json_source.hpp"
 #include "input/study_input.hpp"
 #include "input/study_model.hpp"
+#include "kind_commands.hpp"
 #include "progress.hpp"
 #include "ranks/ranks.hpp"
 #include "ranks/shared_sweep.hpp"
@@ -29,6 +38,7 @@
 #include "shell_word.hpp"
 #include "stop.hpp"
 #include "store/output_folder.hpp"
+#include "store/point_record.hpp"
 #include "store/point_store.hpp"
 #include "streams.hpp"
 #include "studies/classification.hpp"
@@ -40,7 +50,48 @@ namespace {
 
 bool computed(const studies::PointSummary& r) { return r.outcome == integrate::Outcome::reached; }
 
-/// Computes the points that the store does not have.
+/// Chains are dealt to the parts by their index. Nothing: the plan has no more.
+std::optional<std::size_t> chain_of_part(std::size_t chain, const studies::SweepPlan& plan) {
+  if (chain >= plan.chains.size()) return std::nullopt;
+  return chain;
+}
+
+/// The points of a part that the store does not have, and all of them.
+struct PartPoints {
+  std::size_t missing = 0, all = 0;
+};
+
+PartPoints points_of(const store::Part& part, const studies::SweepPlan& plan, const store::PointStore& store) {
+  PartPoints points;
+  for (std::size_t chain = part.number - 1; chain < plan.chains.size(); chain += part.of) {
+    points.all += plan.chains[chain].size();
+    for (const std::size_t point : plan.chains[chain]) points.missing += store.holds(point) ? 0 : 1;
+  }
+  return points;
+}
+
+/// States which points came from parts, and which parts never came.
+void report_parts(const std::string& folder, const store::PointStore& store, const studies::SweepPlan& plan,
+                  std::string_view noun) {
+  const std::map<store::Part, std::size_t> parts = store.parts();
+  if (parts.empty()) return;
+  std::size_t points = 0;
+  std::map<std::size_t, std::set<std::size_t>> came;  // numbers of parts by how many they are
+  for (const auto& [part, held] : parts) {
+    points += held;
+    came[part.of].insert(part.number);
+  }
+  print_message("{}: {} of {} {} came from parts\n", folder, points, plan.points.size(), noun);
+  if (store.size() == plan.points.size()) return;
+  for (const auto& [of, numbers] : came) {
+    std::vector<std::string> absent;
+    for (std::size_t number = 1; number <= std::min(of, plan.chains.size()); ++number)
+      if (!numbers.contains(number)) absent.push_back(fmt::format("{}/{}", number, of));
+    if (!absent.empty()) print_message("{}: never came: part {}\n", folder, fmt::join(absent, ", "));
+  }
+}
+
+/// Computes the points that the store does not have; of a part, those of its chains.
 /// @param leader  of the other ranks; null: there are none
 /// @param lanes   use of the lanes, if there were any
 /// @returns how many points of all failed
@@ -49,9 +100,16 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
                             const studies::ModelAtPoint& model_at, store::PointStore& store, SweepLeader* leader,
                             studies::LaneUse& lanes) {
   const studies::RecordingOptions& recording = input.study.recording();
+  const store::Part& part = arguments.part;
   std::size_t failed = 0;
   studies::SweepRun run;
   run.threads = arguments.threads;
+  std::atomic<std::size_t> next{part.number - 1};
+  if (part.of > 0) {
+    run.next_chain = [&] { return chain_of_part(next.fetch_add(part.of), plan); };
+    run.threads_of_all = arguments.threads * static_cast<int>(part.of);
+    run.process = part.number - 1;
+  }
   run.stop = &stop_requested();
   run.lane_use = &lanes;
   run.done.resize(plan.points.size());
@@ -215,9 +273,96 @@ void print_result(const Arguments& arguments, std::string_view noun, const Compu
           next.empty() ? next : "next: " + next);
 }
 
+/// The identity of the study in a folder.
+/// @throws InputError if there is none
+std::string identity_of_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(folder / "run.json", error)) {
+    const input::JsonSource run = input::read_json_file(folder / "run.json");
+    if (run.complete && run.value.is_object() && run.value.contains("identity") && run.value["identity"].is_string())
+      return run.value["identity"].get<std::string>();
+  }
+  throw InputError(folder.string() + ": contains no study");
+}
+
+/// Replaces the resolved input of a folder by the files that it was made of, for the copies in another folder.
+void use_files_of(const std::filesystem::path& folder, input::LoadedInput& input) {
+  const auto read = [&](const char* name) {
+    const std::filesystem::path file = folder / name;
+    const FileDescriptor descriptor = store::open_data_file(file, O_RDONLY);
+    if (!descriptor.is_open()) throw_output_error(file, "open", errno);
+    return input::RawFile{name, read_all(descriptor.get(), file)};
+  };
+  input.study_file = read("input.json");
+  std::error_code error;
+  if (std::filesystem::exists(folder / "input.stage.json", error)) input.stage_file = read("input.stage.json");
+}
+
+/// Puts the points of a folder with parts into the store.
+void merge_into(store::PointStore& store, const std::filesystem::path& folder, const std::string& identity,
+                std::size_t points, std::string_view noun) {
+  const store::PointStore from(folder, identity, points, store::Journal::Use::read);
+  for (std::size_t point = 0; point < points; ++point) {
+    if (!from.holds(point)) continue;
+    const studies::PointResult result = from.read(point);
+    if (!store.holds(point))
+      store.append(result);
+    else if (store::encode_point(store.read(point)) != store::encode_point(result))
+      throw store::DamagedData(fmt::format("{}: its record of point {} differs from another", folder.string(), point));
+  }
+  print_message("{}: has {} of {} {}\n", folder.string(), from.size(), points, noun);
+}
+
+/// Computes a part of the points into the folder, beside other parts, and writes no results.
+int compute_part(const Arguments& arguments, std::string_view command, std::string_view noun,
+                 const input::LoadedInput& input, const studies::SweepPlan& plan,
+                 const studies::ModelAtPoint& model_at) {
+  const store::Part& part = arguments.part;
+  const std::string name = fmt::format("part {}/{}", part.number, part.of);
+  const std::string identity = identity_of(input, command);
+  store::OutputFolder folder(arguments.output, identity, false, store::FolderUse::shared);
+  const std::string where = folder.path().string();
+  if (const auto code = refuse_or_finish(folder, input)) return *code;
+  if (folder.is_first()) {
+    (void)write_inputs(folder, input);
+    if (!folder.share()) {
+      print_message("{}: is in use by another process\n", where);
+      return folder_in_use;
+    }
+  }
+  try {
+    store::PointStore store(folder.path(), identity, plan.points.size(), part);
+    for (const auto& [journal, bytes] : store.cut_tails()) report_cut_tail(journal, bytes);
+    PartPoints points = points_of(part, plan, store);
+    const bool nothing_to_do = points.missing == 0;
+    if (!nothing_to_do) {
+      studies::LaneUse lanes;
+      (void)compute_missing(arguments, command, noun, input, plan, model_at, store, nullptr, lanes);
+      folder.require_there();
+      points = points_of(part, plan, store);
+    }
+    if (points.missing > 0) {
+      print_message("{}: {} stopped after {} of {} {}; re-run the same command to resume\n", where, name,
+                    points.all - points.missing, points.all, noun);
+      return stopped_early;
+    }
+    if (arguments.json)
+      print("{}\n", nlohmann::json{{"folder", where}, {"part", part.number}, {"of", part.of}, {"points", points.all}}
+                        .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    else
+      print("{}: {} is complete{}: {} of {} {}\n", where, name, nothing_to_do ? " already" : "", points.all,
+            plan.points.size(), noun);
+    return done;
+  } catch (const store::JournalInUse&) {
+    print_message("{}: another process computes {}\n", where, name);
+    return stopped_early;
+  }
+}
+
 int lead(const Arguments& arguments, std::string_view command, std::string_view noun,
          const std::vector<ResultsPart>& parts, const AfterPoints& after, SweepLeader* leader) {
-  const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
+  input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
+  if (!arguments.merged.empty()) use_files_of(arguments.merged.front(), input);
   require_kind(input, arguments, command);
   const studies::SweepPlan plan = input::plan_of(input.study);
   const studies::ModelAtPoint model_at = input::model_at_point(input);
@@ -227,10 +372,18 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   if (!arguments.quiet && command == "sweep" && input.study.sweep().axis.name != studies::speed_parameter)
     print_message("operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
 
+  if (arguments.part.of > 0) return compute_part(arguments, command, noun, input, plan, model_at);
+
   std::unique_ptr<GrownStudy> grown;
   if (!arguments.grow.empty()) grown = std::make_unique<GrownStudy>(arguments.grow, input, plan, command);
 
   const std::string identity = identity_of(input, command);
+  for (const std::filesystem::path& from : arguments.merged) {
+    if (identity_of_folder(from) == identity) continue;
+    print_message("{}: contains another study than {}, or one of another version of the numerics\n", from.string(),
+                  arguments.merged.front().string());
+    return other_study;
+  }
   if (leader != nullptr) leader->gather(arguments, identity);
   Session session(arguments, input, identity, arguments.threads, arguments.ranks->size());
   if (const auto code = session.exit_code()) return *code;
@@ -238,6 +391,8 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
 
   store::PointStore store(folder.path(), identity, plan.points.size());
   for (const auto& [journal, bytes] : store.cut_tails()) report_cut_tail(journal, bytes);
+  for (const std::filesystem::path& from : arguments.merged) merge_into(store, from, identity, plan.points.size(), noun);
+  report_parts(folder.path().string(), store, plan, noun);
   std::size_t taken = 0;
   if (grown) {
     taken = grown->take_into(store);
@@ -292,6 +447,18 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
 }
 
 }  // namespace
+
+int merge_command(const Arguments& arguments) {
+  const std::filesystem::path& first = arguments.merged.front();
+  for (const std::filesystem::path& folder : arguments.merged) (void)identity_of_folder(folder);
+  Arguments of = arguments;
+  of.input = first / "input.resolved.json";
+  const std::string kind(input::load_input(of.input).study.kind());
+  if (kind != "sweep" && kind != "map" && kind != "basins")
+    throw InputError(
+        fmt::format("{}: is a study of kind {}; only sweep, map and basins have parts", first.string(), kind));
+  return command_of(kind).run(of);
+}
 
 int points_command(const Arguments& arguments, std::string_view command, std::string_view noun,
                    const std::vector<ResultsPart>& parts, const AfterPoints& after) {

@@ -84,10 +84,10 @@ void require_only(const json& request, const std::set<std::string>& names) {
 
 /// Times and sizes of the files that grow with a study.
 std::string revision_of(const fs::path& folder) {
-  std::vector<std::string> names = {"run.json", "journal.bin"};
+  std::vector<std::string> names = {"run.json"};
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (const std::string name = entry->path().filename().string(); name.starts_with("journal.rank-"))
+    if (const std::string name = entry->path().filename().string(); name.starts_with("journal."))
       names.push_back(name);
   std::ranges::sort(names);
   std::string text;

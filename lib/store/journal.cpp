@@ -178,14 +178,14 @@ Journal::Journal(std::filesystem::path path, std::string_view identity, Use use)
     throw std::invalid_argument(fmt::format("Journal: an identity of {} characters, not 64", identity.size()));
   }
   const std::string header = header_bytes(identity);
-  descriptor_ = open_data_file(path_, released_ ? O_RDONLY : O_RDWR);
-  if (!descriptor_.is_open() && (released_ || errno != ENOENT)) throw_output_error(path_, "open the journal", errno);
-
-  std::optional<FileWindow> file;
-  std::string start;
-  if (descriptor_.is_open() && !released_) lock_file();
-  if (descriptor_.is_open()) start = file.emplace(descriptor_.get(), path_).at(0, header_size);
-  if (!released_ && start.size() < header_size && header.starts_with(start)) {
+  descriptor_ = open_data_file(path_, released_ ? O_RDONLY : O_RDWR | O_CREAT);
+  if (!descriptor_.is_open()) throw_output_error(path_, "open the journal", errno);
+  if (!released_) lock_file();
+  FileWindow file(descriptor_.get(), path_);
+  const std::string start(file.at(0, header_size));
+  if (start.size() < header_size && header.starts_with(start)) {
+    synced_ = end_ = header_size;
+    if (released_) return;  // its writer has just begun
     // New, or torn before the first record could be there. Written whole at once, so that a header, once there, is
     // good.
     cut_bytes_ = start.size();
@@ -193,28 +193,27 @@ Journal::Journal(std::filesystem::path path, std::string_view identity, Use use)
     descriptor_ = open_descriptor(path_, O_RDWR);
     if (!descriptor_.is_open()) throw_output_error(path_, "open the journal", errno);
     lock_file();
-    synced_ = end_ = header_size;
     return;
   }
 
   check_header(start, header, path_);
   end_ = header_size;
-  while (const auto size = good_record_at(*file, end_)) {
-    const std::string_view head = file->at(end_, record_head_size);
+  while (const auto size = good_record_at(file, end_)) {
+    const std::string_view head = file.at(end_, record_head_size);
     entries_.push_back({get<std::uint64_t>(head.substr(record_magic.size() + 4)), end_});
     end_ += *size;
   }
   // Data of an earlier session are on the disk by now, or are flushed with the first group.
   synced_ = end_;
-  if (end_ == file->size()) return;
-  if (good_record_after(*file, end_)) {
+  if (end_ == file.size()) return;
+  if (good_record_after(file, end_)) {
     throw DamagedData(
         fmt::format("{}: the record after byte {} ({} good records before it) is damaged, but good ones "
                     "follow; restore the file from a copy, or remove it to compute the study anew",
                     path_.string(), end_, entries_.size()));
   }
   if (released_) return;
-  cut_bytes_ = file->size() - end_;
+  cut_bytes_ = file.size() - end_;
   while (::ftruncate(descriptor_.get(), static_cast<off_t>(end_)) != 0) {
     if (errno != EINTR) throw_output_error(path_, "cut the torn tail of the journal", errno);
   }
@@ -226,6 +225,12 @@ void Journal::lock_file() const {
     if (errno == EWOULDBLOCK) throw JournalInUse(fmt::format("{}: is in use by another process", path_.string()));
     if (errno != EINTR) throw_output_error(path_, "lock the journal", errno);
   }
+  // Another process may have put its header in place since the file was opened.
+  struct stat here {};
+  struct stat there {};
+  if (::fstat(descriptor_.get(), &here) != 0 || ::stat(path_.c_str(), &there) != 0 || here.st_dev != there.st_dev ||
+      here.st_ino != there.st_ino)
+    throw JournalInUse(fmt::format("{}: is in use by another process", path_.string()));
 }
 
 void Journal::release() {

@@ -60,8 +60,8 @@ struct JournalEntry {
   std::uint64_t offset = 0;  ///< of the record in the file [bytes]
 };
 
-/// An open journal. append(), sync() and reading may be called from several threads. One process at a time: the
-/// folder's lock sees to that.
+/// An open journal. append(), sync() and reading may be called from several threads. One process at a time appends: the
+/// file is locked.
 class Journal {
  public:
   enum class Use {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -27,6 +29,9 @@ constexpr std::string_view lock_name = ".lock";
 constexpr std::string_view run_name = "run.json";
 constexpr const char* files_key = "files";
 constexpr int indent = 2;
+/// Longer than the first of the processes that share a folder has it for itself: 5 s.
+constexpr int share_tries = 250;
+constexpr std::chrono::milliseconds share_pause{20};
 
 /// Does the folder contain anything but files that opening may have made?
 bool holds_files(const fs::path& folder) {
@@ -65,8 +70,8 @@ FileDescriptor open_lock_file(const fs::path& path) {
 }
 
 /// @returns false when another holds the lock
-bool try_lock(const FileDescriptor& descriptor, const fs::path& path) {
-  while (::flock(descriptor.get(), LOCK_EX | LOCK_NB) != 0) {
+bool try_lock(const FileDescriptor& descriptor, const fs::path& path, int kind = LOCK_EX) {
+  while (::flock(descriptor.get(), kind | LOCK_NB) != 0) {
     if (errno == EWOULDBLOCK) return false;
     if (errno != EINTR) throw_output_error(path, "lock the folder", errno);
   }
@@ -93,8 +98,8 @@ bool begins_with(const fs::path& whole, const fs::path& beginning) {
 }  // namespace
 
 std::string_view to_string(FolderOutcome outcome) {
-  constexpr std::array<std::string_view, 7> names{"fresh",       "resumable", "complete", "damaged",
-                                                  "other_study", "in_use",    "foreign"};
+  constexpr std::array<std::string_view, 8> names{"fresh",       "resumable", "complete", "damaged",
+                                                  "other_study", "in_use",    "in_parts", "foreign"};
   return names.at(static_cast<std::size_t>(outcome));
 }
 
@@ -103,17 +108,17 @@ std::string_view to_string(RunState state) {
   return names.at(static_cast<std::size_t>(state));
 }
 
-OutputFolder::OutputFolder(fs::path path, std::string identity, bool can_draw)
-    : path_(std::move(path)), identity_(std::move(identity)) {
+OutputFolder::OutputFolder(fs::path path, std::string identity, bool can_draw, FolderUse use)
+    : path_(std::move(path)), identity_(std::move(identity)), use_(use) {
   create_folder(path_, /*parents=*/true);
   outcome_ = open(can_draw);
   if (!lock_.is_open()) return;
   place_ = open_descriptor(path_, O_RDONLY | O_DIRECTORY);
   if (!is_there()) place_ = FileDescriptor();  // a file system that numbers its files anew
   recorder_ = std::make_unique<FileRecorder>(path_);
-  if (outcome_ == FolderOutcome::complete) return;
+  if (outcome_ == FolderOutcome::complete || !alone_) return;
   remove_temporary_files(path_);
-  set_changed_files_aside();
+  if (use_ == FolderUse::alone) set_changed_files_aside();
   // At once, so that the study's identity exists before its first file.
   if (outcome_ == FolderOutcome::fresh) write_run(RunState::running, nlohmann::json::object());
 }
@@ -126,10 +131,10 @@ FolderOutcome OutputFolder::open(bool can_draw) {
     return FolderOutcome::foreign;
 
   FileDescriptor lock = open_lock_file(file(lock_name));
-  const bool locked = try_lock(lock, path_);
+  const FolderOutcome locked = this->lock(lock);
   // Under the lock only: before it, the other process may just be writing.
   previous_run_ = read_run();
-  if (!locked) return FolderOutcome::in_use;
+  if (locked != FolderOutcome::fresh) return locked;
   if (previous_run_.is_null() && !holds_files(path_)) {
     lock_ = std::move(lock);
     return FolderOutcome::fresh;
@@ -138,11 +143,41 @@ FolderOutcome OutputFolder::open(bool can_draw) {
   if (previous_run_["identity"] != identity_) return FolderOutcome::other_study;
   lock_ = std::move(lock);
   if (previous_run_.value("state", nlohmann::json()) != to_string(RunState::complete)) return FolderOutcome::resumable;
+  // Files are checked by who may write them again.
+  if (use_ == FolderUse::shared) return FolderOutcome::complete;
   const auto manifest = manifest_from(previous_run_.value(files_key, nlohmann::json()));
   if (!manifest) return FolderOutcome::damaged;
   changed_ = changed_files(path_, *manifest);
   if (!can_draw) std::erase_if(changed_, [](const ChangedFile& file) { return !file.expected; });
   return changed_.empty() ? FolderOutcome::complete : FolderOutcome::damaged;
+}
+
+/// @returns in_use or in_parts if others have it, else fresh
+FolderOutcome OutputFolder::lock(FileDescriptor& descriptor) {
+  if (use_ == FolderUse::alone) {
+    if (try_lock(descriptor, path_)) return FolderOutcome::fresh;
+    if (!try_lock(descriptor, path_, LOCK_SH)) return FolderOutcome::in_use;
+    return FolderOutcome::in_parts;
+  }
+  // The first of those that share it has it for itself while it writes run.json and the inputs.
+  for (int tries = 0; tries < share_tries; ++tries) {
+    alone_ = try_lock(descriptor, path_);
+    if (alone_) return FolderOutcome::fresh;
+    if (try_lock(descriptor, path_, LOCK_SH)) {
+      if (is_ours(read_run())) return FolderOutcome::fresh;
+      if (::flock(descriptor.get(), LOCK_UN) != 0) throw_output_error(path_, "unlock the folder", errno);
+    }
+    std::this_thread::sleep_for(share_pause);
+  }
+  return FolderOutcome::in_use;
+}
+
+bool OutputFolder::share() {
+  for (int tries = 0; tries < share_tries; ++tries) {
+    if (try_lock(lock_, path_, LOCK_SH)) return true;
+    std::this_thread::sleep_for(share_pause);
+  }
+  return false;
 }
 
 void OutputFolder::set_changed_files_aside() {

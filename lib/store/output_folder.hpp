@@ -3,7 +3,7 @@
 //
 // run.json contains the identity and the state of the study, together with all volatile facts (see
 // store/provenance.hpp). DIR/.lock is locked by flock(2) while an OutputFolder lives; the kernel releases it even on
-// kill -9. The lock file is not removed on purpose: else a second and a third process could lock two different files of
+// kill -9. Processes that compute parts of the study share the lock. The lock file is not removed on purpose: else a second and a third process could lock two different files of
 // that name.
 //
 // run.json of a complete study also contains the manifest of its files (see store/manifest.hpp). If a file is missing,
@@ -37,6 +37,7 @@ enum class FolderOutcome {
   damaged,      ///< the same study, complete, but not all files are as they were left: ours now, to be made again
   other_study,  ///< another study; nothing was touched
   in_use,       ///< another process has it; nothing was touched
+  in_parts,     ///< processes that share it compute in it; nothing was touched
   foreign,      ///< files that are not from this program; nothing was touched
 };
 
@@ -51,6 +52,12 @@ enum class RunState {
 std::string_view to_string(FolderOutcome outcome);
 std::string_view to_string(RunState state);
 
+/// Who may use a folder at the same time.
+enum class FolderUse {
+  alone,   ///< nobody else
+  shared,  ///< others that share it, too: each writes to a journal of its own, and nothing else
+};
+
 class OutputFolder {
  public:
   /// Opens the folder; creates it, parents included, if it is not there; locks it. Unfinished temporary files of a
@@ -60,7 +67,8 @@ class OutputFolder {
   /// @param can_draw   a picture that could not be drawn before is one that is missing
   /// @throws OutputError when it cannot be created, read or written, or the file system knows no locks; DamagedData
   /// when run.json is no plain file
-  OutputFolder(std::filesystem::path path, std::string identity, bool can_draw = false);
+  OutputFolder(std::filesystem::path path, std::string identity, bool can_draw = false,
+               FolderUse use = FolderUse::alone);
 
   [[nodiscard]] FolderOutcome outcome() const { return outcome_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -71,6 +79,14 @@ class OutputFolder {
 
   /// The changed files of a damaged folder; none: it is not known which files there were.
   [[nodiscard]] const std::vector<ChangedFile>& changed() const { return changed_; }
+
+  /// Opened to be shared, and nobody else had it: the inputs have to be written, then share() is called.
+  [[nodiscard]] bool is_first() const { return use_ == FolderUse::shared && alone_; }
+
+  /// Lets others share it.
+  /// @returns false if another process has it for itself by now
+  /// @throws OutputError
+  [[nodiscard]] bool share();
 
   /// The manifest of the files that other processes have put into the folder.
   void add(const Manifest& files);
@@ -91,6 +107,7 @@ class OutputFolder {
 
  private:
   FolderOutcome open(bool can_draw);
+  [[nodiscard]] FolderOutcome lock(FileDescriptor& descriptor);
   [[nodiscard]] nlohmann::json read_run() const;
   void set_changed_files_aside();
   [[nodiscard]] nlohmann::json manifest_of_session() const;
@@ -98,6 +115,8 @@ class OutputFolder {
 
   std::filesystem::path path_;
   std::string identity_;
+  FolderUse use_;
+  bool alone_ = true;
   FileDescriptor lock_;
   FileDescriptor place_;  ///< the folder itself; not open where that says nothing
   std::unique_ptr<FileRecorder> recorder_;

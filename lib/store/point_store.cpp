@@ -1,6 +1,7 @@
 #include "store/point_store.hpp"
 
 #include <charconv>
+#include <filesystem>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -18,31 +19,67 @@ namespace {
 /// All of a record but the Poincare section, as a rule; notes may be longer.
 constexpr std::size_t summary_bytes = 2048;
 
-constexpr std::string_view rank_journal_start = "journal.rank-";
-constexpr std::string_view rank_journal_end = ".bin";
+constexpr std::string_view rank_start = "journal.rank-";
+constexpr std::string_view part_start = "journal.part-";
+constexpr std::string_view part_middle = "-of-";
+constexpr std::string_view journal_end = ".bin";
 
-/// Ranks with a journal in the folder, in order.
-std::set<int> ranks_with_journal(const std::filesystem::path& folder) {
-  std::set<int> ranks;
+/// Journals of other processes in a folder, in order.
+struct OtherJournals {
+  std::set<int> ranks{};
+  std::set<Part> parts{};
+};
+
+Part part_of(std::string_view name) {
+  Part part;
+  const char* const end = name.data() + name.size();
+  const char* at = std::from_chars(name.data() + part_start.size(), end, part.number).ptr;
+  if (std::string_view(at, end).starts_with(part_middle)) std::from_chars(at + part_middle.size(), end, part.of);
+  return part;
+}
+
+OtherJournals journals_in(const std::filesystem::path& folder) {
+  OtherJournals found;
   std::error_code error;
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (!name.starts_with(rank_journal_start)) continue;
-    int rank = 0;
-    std::from_chars(name.data() + rank_journal_start.size(), name.data() + name.size(), rank);
-    if (rank > 0 && name == rank_journal_name(rank)) ranks.insert(rank);
+    if (name.starts_with(rank_start)) {
+      int rank = 0;
+      std::from_chars(name.data() + rank_start.size(), name.data() + name.size(), rank);
+      if (rank > 0 && name == rank_journal_name(rank)) found.ranks.insert(rank);
+    } else if (name.starts_with(part_start)) {
+      const Part part = part_of(name);
+      if (part.of > 0 && name == part_journal_name(part)) found.parts.insert(part);
+    }
   }
   if (error) throw_output_error(folder, "list the folder", error.value());
-  return ranks;
+  return found;
 }
 
 }  // namespace
 
-std::string rank_journal_name(int rank) { return fmt::format("{}{}{}", rank_journal_start, rank, rank_journal_end); }
+std::string rank_journal_name(int rank) { return fmt::format("{}{}{}", rank_start, rank, journal_end); }
+
+std::string part_journal_name(const Part& part) {
+  return fmt::format("{}{}{}{}{}", part_start, part.number, part_middle, part.of, journal_end);
+}
 
 PointStore::PointStore(std::filesystem::path folder, std::string identity, std::size_t points, Journal::Use use)
     : folder_(std::move(folder)), identity_(std::move(identity)), use_(use), places_(points) {
-  open(folder_ / "journal.bin");
+  // A folder of parts may have journals of parts alone.
+  std::error_code error;
+  const OtherJournals others = use_ == Journal::Use::read ? journals_in(folder_) : OtherJournals{};
+  if (others.parts.empty() || std::filesystem::exists(folder_ / own_, error)) open(folder_ / own_, use_);
+  read_others();
+}
+
+PointStore::PointStore(std::filesystem::path folder, std::string identity, std::size_t points, const Part& part)
+    : folder_(std::move(folder)),
+      identity_(std::move(identity)),
+      own_(part_journal_name(part)),
+      use_(Journal::Use::read),
+      places_(points) {
+  open(folder_ / own_, Journal::Use::append);
   read_others();
 }
 
@@ -54,19 +91,40 @@ void PointStore::read_others() {
     place = {};
     --size_;
   }
-  for (const int rank : ranks_with_journal(folder_)) {
-    Journal& journal = open(folder_ / rank_journal_name(rank));
+  parts_.clear();
+  const auto read = [this](const std::string& name) {
+    if (name == own_) return;
+    Journal& journal = open(folder_ / name, use_);
     if (use_ == Journal::Use::append) journal.release();
+  };
+  if (std::error_code error; own_ != "journal.bin" && std::filesystem::exists(folder_ / "journal.bin", error))
+    read("journal.bin");
+  const OtherJournals others = journals_in(folder_);
+  for (const int rank : others.ranks) read(rank_journal_name(rank));
+  for (const Part& part : others.parts) {
+    const std::string name = part_journal_name(part);
+    parts_[part] = name == own_ ? 0 : journals_.size();
+    read(name);
   }
 }
 
-Journal& PointStore::open(const std::filesystem::path& file) {
+std::map<Part, std::size_t> PointStore::parts() const {
+  std::map<Part, std::size_t> points;
+  const std::scoped_lock lock(mutex_);
+  std::vector<std::size_t> held(journals_.size());
+  for (const Place& place : places_)
+    if (place.offset != absent) ++held[place.journal];
+  for (const auto& [part, journal] : parts_) points[part] = held.at(journal);
+  return points;
+}
+
+Journal& PointStore::open(const std::filesystem::path& file, Journal::Use use) {
   if (journals_.size() == journals_max) throw OutputError(folder_.string() + ": holds too many journals");
-  journals_.push_back(std::make_unique<Journal>(file, identity_, use_));
+  journals_.push_back(std::make_unique<Journal>(file, identity_, use));
   Journal& journal = *journals_.back();
   for (const JournalEntry& entry : journal.entries()) take(journals_.size() - 1, entry);
   journal.forget_entries();
-  if (use_ == Journal::Use::append && journal.cut_bytes() > 0) cut_tails_[file] = journal.cut_bytes();
+  if (use == Journal::Use::append && journal.cut_bytes() > 0) cut_tails_[file] = journal.cut_bytes();
   return journal;
 }
 

@@ -67,7 +67,7 @@ const Command& basins_command() {
       .meaning = "find coexisting attractors over a plane of initial states",
       .run = &run_basins,
       .takes = Takes::output,
-      .options = &add_grow_option,
+      .options = &add_points_options,
       .shares_work = true,
       .expected = &time_of_points,
   };

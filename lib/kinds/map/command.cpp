@@ -34,7 +34,7 @@ const Command& map_command() {
       .meaning = "classify regimes over two parameters",
       .run = &run_map,
       .takes = Takes::output,
-      .options = &add_grow_option,
+      .options = &add_points_options,
       .shares_work = true,
       .expected = &time_of_points,
   };

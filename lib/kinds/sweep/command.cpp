@@ -191,7 +191,7 @@ const Command& sweep_command() {
       .meaning = "compute a bifurcation diagram along one parameter, up, down or both",
       .run = &run_sweep,
       .takes = Takes::output,
-      .options = &add_grow_option,
+      .options = &add_points_options,
       .shares_work = true,
       .expected = &time_of_sweep,
   };

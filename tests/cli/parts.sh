@@ -1,0 +1,148 @@
+#!/usr/bin/env bash
+# parts.sh EPICYCLIC SOURCE_DIR
+#
+# A sweep, a map and basins by 1, 2, 3 and 7 parts in an order that SEED gives, with kills and repetitions: the same bytes
+# as one process. Parts killed within KILLS sessions in all (6). Two starts of one part at once, a part that never came,
+# the command while a part runs, folders put together, refusals.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
+
+kills=${KILLS:-6}
+seed=${SEED:-1}
+RANDOM=$seed
+echo "KILLS=$kills SEED=$seed"
+without_drawing
+
+few=(--set /study/transient_periods=20 --set /study/recorded_periods=8 --set /study/classification_periods=0)
+sweep=(sweep "${speeds[@]}" "${few[@]}" --set /study/points=8 --set '/study/start="cold"')
+continued=("${sweep[@]}" --set '/study/start="continued"' --set /study/segments=3)
+lanes=("${sweep[@]}" --set '/integrator/method="lanes-dopri5"')
+map=(map "$inputs/tang2020_map.json" "${few[@]}" --set /study/first/points=4 --set /study/second/points=3)
+basins=(basins "$inputs/tang2020_basins.json" --set /study/first/points=4 --set /study/second/points=3
+  --set /study/transient_periods=20 --set /study/recorded_periods=8)
+kinds=(sweep continued lanes map basins)
+result_files=(input.json input.resolved.json)
+
+# The part, with an exit code of 0 and no results.
+part() {
+  [ "$(code_of "$epicyclic" "${study[@]}" -o "$1" --threads 1 --part "$2")" = 0 ] || fail "$1, part $2: $(<stderr)"
+}
+
+for kind in "${kinds[@]}"; do
+  declare -n study=$kind
+  [ "$(code_of "$epicyclic" "${study[@]}" -o $kind --threads 2)" = 0 ] || fail "$kind, one process: $(<stderr)"
+done
+
+killed=0
+rounds=0
+while [ $rounds -lt ${#kinds[@]} ] || [ "$killed" -lt "$kills" ]; do
+  [ $rounds -lt 1000 ] || { fail "only $killed parts could be killed" && break; }
+  kind=${kinds[rounds % ${#kinds[@]}]}
+  declare -n study=$kind
+  counts=(3 2 7 1)
+  of=${counts[rounds % 4]}
+  folder=$kind.$rounds
+  rounds=$((rounds + 1))
+  for number in $(seq 1 $of | while read -r k; do echo "$RANDOM $k"; done | sort -n | cut -d ' ' -f 2); do
+    if [ "$killed" -lt "$kills" ]; then
+      "$epicyclic" "${study[@]}" -o "$folder" --threads 1 --part "$number/$of" >stdout 2>stderr &
+      pid=$!
+      sleep "$(moment 150)"
+      kill -KILL $pid 2>/dev/null || true
+      code=0
+      { wait $pid || code=$?; } 2>/dev/null
+      case $code in
+        137) killed=$((killed + 1)) ;;
+        0) ;;
+        *) fail "$folder, part $number/$of: exit code $code: $(<stderr)" ;;
+      esac
+    fi
+    # One of four never comes again.
+    if [ $((RANDOM % 4)) != 0 ]; then
+      part "$folder" "$number/$of"
+      [ ! -e "$folder/points.csv" ] || fail "$folder: a part wrote results"
+      if [ $((RANDOM % 4)) = 0 ]; then
+        part "$folder" "$number/$of"
+        grep -q 'is complete already' stdout || fail "$folder: part $number/$of was computed twice: $(<stdout)"
+      fi
+    fi
+  done
+  [ "$(code_of "$epicyclic" "${study[@]}" -o "$folder" --threads 2)" = 0 ] || fail "$folder: $(<stderr)"
+  same_folder $kind "$folder"
+  rm -rf "$folder"
+done
+echo "$killed kills of parts in $rounds folders"
+
+declare -n study=sweep
+# A part that never came, and parts of two numbers. Four of the 16 points are those of 1/4.
+part absent 1/4
+part absent 3/4
+part absent 1/2 # knows their points
+grep -q 'is complete already: 8 of 16 points' stdout || fail "the points of other parts were computed again: $(<stdout)"
+[ "$(code_of "$epicyclic" "${study[@]}" -o absent)" = 0 ] || fail "absent: $(<stderr)"
+grep -q '8 of 16 points came from parts' stderr || fail "it is not said how many came from parts: $(<stderr)"
+grep -q 'never came: part 2/4, 4/4' stderr || fail "it is not said which part never came: $(<stderr)"
+same_folder sweep absent
+part absent 2/4
+grep -q 'complete already' stderr || fail "a part of a complete study must say so: $(<stderr)"
+
+# Parts at once, each twice: the folder is new to all of them.
+for number in 1 1 2 2 3 3; do
+  (
+    code=0
+    said=atonce.said.$BASHPID
+    "$epicyclic" "${study[@]}" -o atonce --threads 1 --part $number/3 >/dev/null 2>$said || code=$?
+    echo $code >>atonce.codes
+    [ $code = 0 ] || grep -q "another process computes part $number/3" $said || cat $said >>atonce.wrong
+  ) &
+done
+wait
+[ ! -s atonce.wrong ] || fail "parts at once: $(<atonce.wrong)"
+! grep -qvE '^(0|75)$' atonce.codes || fail "parts at once must give 0 or 75: $(<atonce.codes)"
+[ "$(grep -c '^0$' atonce.codes)" -ge 3 ] || fail "parts at once: not each was computed: $(<atonce.codes)"
+[ "$(code_of "$epicyclic" "${study[@]}" -o atonce)" = 0 ] || fail "atonce: $(<stderr)"
+! grep -q 'never came' stderr || fail "all parts came: $(<stderr)"
+same_folder sweep atonce
+
+# Parts in folders of their own, put together: all of them, and one too few.
+for number in 1 2 3; do part own.$number $number/3; done
+[ "$(code_of "$epicyclic" merge own.2 own.3 own.1 -o merged)" = 0 ] || fail "merge: $(<stderr)"
+grep -q '16 of 16 points exist already' stderr || fail "merge computed: $(<stderr)"
+same_folder sweep merged
+[ "$(code_of "$epicyclic" merge own.3 own.1 -o fewer)" = 0 ] || fail "merge of two: $(<stderr)"
+same_folder sweep fewer
+[ "$(code_of "$epicyclic" merge own.1 map -o mixed)" = 3 ] || fail "merge of two studies must give 3: $(<stderr)"
+[ "$(code_of "$epicyclic" merge own.1 nothing -o mixed)" = 2 ] || fail "merge of no study must give 2: $(<stderr)"
+[ ! -e mixed ] || fail "refused, but merged"
+
+# While a part runs: the same part, another one, and the command without --part.
+long=("${study[@]}" --set /study/transient_periods=100000)
+"$epicyclic" "${long[@]}" -o running --threads 1 --part 1/2 >/dev/null 2>running.err &
+pid=$!
+for ((k = 0; k < 300; ++k)); do
+  [ ! -s running/journal.part-1-of-2.bin ] || break
+  sleep 0.02
+done
+[ "$(code_of "$epicyclic" "${long[@]}" -o running --part 1/2)" = 75 ] || fail "the same part twice must give 75: $(<stderr)"
+grep -q 'another process computes part 1/2' stderr || fail "the same part twice: $(<stderr)"
+[ "$(code_of "$epicyclic" "${long[@]}" -o running)" = 4 ] || fail "while a part runs, the command must give 4: $(<stderr)"
+grep -q 'parts of a study are computed in it' stderr || fail "while a part runs: $(<stderr)"
+[ "$(code_of "$epicyclic" "${study[@]}" -o running --part 2/2)" = 3 ] || fail "another study must give 3: $(<stderr)"
+kill -TERM $pid
+code=0
+wait $pid || code=$?
+[ $code = 75 ] || fail "a stopped part must give 75, not $code"
+grep -q 'part 1/2 stopped after' running.err || fail "a stopped part: $(<running.err)"
+
+# Refusals.
+refused() {
+  local text=$1
+  shift
+  [ "$(code_of "$epicyclic" "$@" -o refused)" = 2 ] || fail "must give 2: $*: $(<stderr)"
+  grep -q -- "$text" stderr || fail "must say $text: $*: $(<stderr)"
+  [ ! -e refused ] || fail "refused, but written to: $*"
+}
+for text in 0/3 4/3 1/0 1 1/x 1/3/3 -1/3 1/10001; do refused 'is not K/N' "${study[@]}" --part=$text; done
+refused 'only sweep, map and basins' run "$inputs/tang2020_run.json" --part 1/2
+refused 'excludes' "${study[@]}" --part 1/2 --report
+finish
