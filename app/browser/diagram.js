@@ -569,13 +569,14 @@ export class Diagram {
     }
   }
 
-  /// The point of a shown line with the nearest abscissa; of the chosen line, if that is one of two.
+  /// The point of a shown line with the nearest abscissa; the chosen line comes before others that are as near.
   nearestAt(x) {
     let best = null;
     for (const line of this.lines.filter(({ shown }) => shown)) {
       const row = line.rows[nearestIndex(line.rows, this.x(line), x)];
       const apart = Math.abs(this.x(line)[row] - x);
-      if (!best || apart < best.apart || (apart === best.apart && line === this.chosen?.line)) best = { line, row, apart };
+      const preferred = apart === best?.apart && line === this.chosen?.line;
+      if (!best || apart < best.apart || preferred) best = { line, row, apart };
     }
     return best;
   }

@@ -12,9 +12,12 @@ export function rangeOf(low, high, margin) {
   return [low - margin * wide, high + margin * wide];
 }
 
-/// Values on a logarithmic axis that are labelled: powers of ten, over less than three decades 2 and 5 times them, too.
+/// Values on a logarithmic axis that are labelled: powers of ten; over less than three decades 2 and 5 times them, too;
+/// over less than one all digits; of a narrower range everything.
 function isLabelled(value, [low, high]) {
   const mantissa = Number(value.toExponential(6).split('e')[0]);
+  if (high < 2 * low) return true;
+  if (high < 10 * low) return Number.isInteger(mantissa);
   return mantissa === 1 || (high < 1000 * low && (mantissa === 2 || mantissa === 5));
 }
 
@@ -101,7 +104,7 @@ export class Panel {
   build() {
     this.plot?.destroy();
     const colours = theme();
-    const axis = (label, size, ordinate) => ({
+    const axis = (label, size, logarithmic) => ({
       label,
       labelSize: 18,
       size,
@@ -110,8 +113,8 @@ export class Panel {
       labelFont: '13px system-ui, sans-serif',
       values: (plot, splits) => {
         const { min, max } = plot.scales.y;
-        const none = (value) => value === null || value === undefined || (ordinate && !isLabelled(value, [min, max]));
-        return splits.map((value) => (none(value) ? '' : number(value, 12)));
+        const none = (value) => value === null || value === undefined || (logarithmic && !isLabelled(value, [min, max]));
+        return splits.map((value) => (none(value) ? '' : number(value, logarithmic ? 4 : 12)));
       },
       grid: { stroke: colours.grid, width: 1 },
       ticks: { stroke: colours.grid, width: 1, size: 5 },
@@ -342,6 +345,7 @@ export class Panel {
             top: event.clientY - box.top,
           });
           this.pickAt(found, event.clientX - box.left);
+          this.dragged = true; // The click that follows picks nothing else.
         }
         from = null;
       });

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "store/point_store.hpp"
+#include "store/part.hpp"
 
 namespace epicyclic::input {
 struct Drawing;
@@ -57,10 +57,10 @@ struct Arguments {
   std::vector<std::string> sets;
   int threads = 1;
   bool json = false;
-  store::Part part{};              ///< of sweep, map and basins: the share to compute
+  store::Part part{};                         ///< of sweep, map and basins: the share to compute
   std::vector<std::filesystem::path> merged;  ///< of merge: folders with points of this study
-  bool report = false;             ///< write the page of `report` too
-  std::vector<std::string> from;   ///< points to start from, of finished studies [finished_study.hpp]
+  bool report = false;                        ///< write the page of `report` too
+  std::vector<std::string> from;              ///< points to start from, of finished studies [finished_study.hpp]
   std::filesystem::path grow;      ///< of sweep, map and basins: a finished study whose points are taken; empty: none
   std::filesystem::path against;   ///< of continue: a sweep's folder; empty: none. Of assert: the expected points' file
   int unexplained = 0;             ///< of continue: changes that may stay so

@@ -72,9 +72,8 @@ int keys_command(const Arguments& arguments) {
   // Each may be a word, and no key have them all.
   const auto unknown = [&](const std::string& word) { return std::ranges::find(known, word) == known.end(); };
   const auto wrong = std::ranges::find_if(arguments.words, unknown);
-  throw InputError("no key has " + words +
-                   (wrong != arguments.words.end() ? input::suggestion(*wrong, known) + "; `keys` alone prints all"
-                                                   : "; give one of them"));
+  const std::string near = wrong != arguments.words.end() ? input::suggestion(*wrong, known) : "; give one of them";
+  throw InputError("no key has " + words + (near.empty() ? "; `keys` alone prints all" : near));
 }
 
 }  // namespace epicyclic::app

@@ -58,11 +58,11 @@ void add_points_options(CLI::App& command, Arguments& arguments) {
 
 void add_part_refusal(CLI::App& command) {
   command
-      .add_option_function<std::string>(
-          "--part",
-          [](const std::string& /*text*/) {
-            throw CLI::ValidationError("--part", "only sweep, map and basins can be computed in parts");
-          })
+      .add_option_function<std::string>("--part",
+                                        [](const std::string& /*text*/) {
+                                          throw CLI::ValidationError(
+                                              "--part", "only sweep, map and basins can be computed in parts");
+                                        })
       ->group("");  // not in --help
 }
 

@@ -50,13 +50,7 @@ namespace {
 
 bool computed(const studies::PointSummary& r) { return r.outcome == integrate::Outcome::reached; }
 
-/// Chains are dealt to the parts by their index. Nothing: the plan has no more.
-std::optional<std::size_t> chain_of_part(std::size_t chain, const studies::SweepPlan& plan) {
-  if (chain >= plan.chains.size()) return std::nullopt;
-  return chain;
-}
-
-/// The points of a part that the store does not have, and all of them.
+/// The points of a part that the store does not have, and all of them. Chains are dealt to the parts by their index.
 struct PartPoints {
   std::size_t missing = 0, all = 0;
 };
@@ -70,24 +64,26 @@ PartPoints points_of(const store::Part& part, const studies::SweepPlan& plan, co
   return points;
 }
 
-/// States which points came from parts, and which parts never came.
+/// States how many points parts have computed, and which parts have no journal.
 void report_parts(const std::string& folder, const store::PointStore& store, const studies::SweepPlan& plan,
                   std::string_view noun) {
   const std::map<store::Part, std::size_t> parts = store.parts();
   if (parts.empty()) return;
   std::size_t points = 0;
-  std::map<std::size_t, std::set<std::size_t>> came;  // numbers of parts by how many they are
+  std::map<std::size_t, std::set<std::size_t>> present;  // numbers of parts by how many they are
   for (const auto& [part, held] : parts) {
     points += held;
-    came[part.of].insert(part.number);
+    present[part.of].insert(part.number);
   }
-  print_message("{}: {} of {} {} came from parts\n", folder, points, plan.points.size(), noun);
+  print_message("{}: {} of {} {} were computed by parts\n", folder, points, plan.points.size(), noun);
   if (store.size() == plan.points.size()) return;
-  for (const auto& [of, numbers] : came) {
+  for (const auto& [of, numbers] : present) {
     std::vector<std::string> absent;
     for (std::size_t number = 1; number <= std::min(of, plan.chains.size()); ++number)
       if (!numbers.contains(number)) absent.push_back(fmt::format("{}/{}", number, of));
-    if (!absent.empty()) print_message("{}: never came: part {}\n", folder, fmt::join(absent, ", "));
+    if (!absent.empty())
+      print_message("{}: no journal of part {}; the missing points are computed now\n", folder,
+                    fmt::join(absent, ", "));
   }
 }
 
@@ -104,9 +100,13 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
   std::size_t failed = 0;
   studies::SweepRun run;
   run.threads = arguments.threads;
-  std::atomic<std::size_t> next{part.number - 1};
+  std::atomic<std::size_t> next{0};
   if (part.of > 0) {
-    run.next_chain = [&] { return chain_of_part(next.fetch_add(part.of), plan); };
+    next = part.number - 1;
+    run.next_chain = [&]() -> std::optional<std::size_t> {
+      const std::size_t chain = next.fetch_add(part.of);
+      return chain < plan.chains.size() ? std::optional(chain) : std::nullopt;
+    };
     run.threads_of_all = arguments.threads * static_cast<int>(part.of);
     run.process = part.number - 1;
   }
@@ -347,8 +347,9 @@ int compute_part(const Arguments& arguments, std::string_view command, std::stri
       return stopped_early;
     }
     if (arguments.json)
-      print("{}\n", nlohmann::json{{"folder", where}, {"part", part.number}, {"of", part.of}, {"points", points.all}}
-                        .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+      print("{}\n",
+            nlohmann::json{{"folder", where}, {"part", part.number}, {"of", part.of}, {"points", points.all}}.dump(
+                2, ' ', false, nlohmann::json::error_handler_t::replace));
     else
       print("{}: {} is complete{}: {} of {} {}\n", where, name, nothing_to_do ? " already" : "", points.all,
             plan.points.size(), noun);
@@ -391,7 +392,8 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
 
   store::PointStore store(folder.path(), identity, plan.points.size());
   for (const auto& [journal, bytes] : store.cut_tails()) report_cut_tail(journal, bytes);
-  for (const std::filesystem::path& from : arguments.merged) merge_into(store, from, identity, plan.points.size(), noun);
+  for (const std::filesystem::path& from : arguments.merged)
+    merge_into(store, from, identity, plan.points.size(), noun);
   report_parts(folder.path().string(), store, plan, noun);
   std::size_t taken = 0;
   if (grown) {

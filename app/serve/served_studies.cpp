@@ -87,8 +87,7 @@ std::string revision_of(const fs::path& folder) {
   std::vector<std::string> names = {"run.json"};
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (const std::string name = entry->path().filename().string(); name.starts_with("journal."))
-      names.push_back(name);
+    if (const std::string name = entry->path().filename().string(); name.starts_with("journal.")) names.push_back(name);
   std::ranges::sort(names);
   std::string text;
   for (const std::string& name : names) {

@@ -91,9 +91,9 @@ std::string mode_shapes_csv(const gear::Stage& stage, const std::vector<model::M
 std::string campbell_csv(const gear::Stage& stage, const std::vector<model::Mode>& modes) {
   const model::Scales scales = model::scales_of(stage);
   const bool moves = gear::problems_for_dynamics(stage).empty();
-  std::vector<std::string> columns = {"mode", "type", "frequency_ratio", "harmonic", "mesh_frequency_ratio"};
-  columns.insert(columns.end(), {"mesh_frequency_Hz", "sun_speed_rpm"});
-  if (!moves) columns.pop_back();
+  std::vector<std::string> columns = {
+      "mode", "type", "frequency_ratio", "harmonic", "mesh_frequency_ratio", "mesh_frequency_Hz"};
+  if (moves) columns.emplace_back("sun_speed_rpm");
   CsvWriter csv(columns);
   int number = 1;
   for (const model::Mode& mode : modes) {

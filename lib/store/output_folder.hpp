@@ -3,8 +3,8 @@
 //
 // run.json contains the identity and the state of the study, together with all volatile facts (see
 // store/provenance.hpp). DIR/.lock is locked by flock(2) while an OutputFolder lives; the kernel releases it even on
-// kill -9. Processes that compute parts of the study share the lock. The lock file is not removed on purpose: else a second and a third process could lock two different files of
-// that name.
+// kill -9. Processes that compute parts of the study share the lock. The lock file is not removed on purpose: else a
+// second and a third process could lock two different files of that name.
 //
 // run.json of a complete study also contains the manifest of its files (see store/manifest.hpp). If a file is missing,
 // cut or changed, the folder is no longer complete. All files are then made again, from the journal or by the same

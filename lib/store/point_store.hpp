@@ -1,11 +1,10 @@
 // The points of a sweep in the journals of its folder. Memory has 8 bytes for each.
 //
-// journal.bin belongs to this process; journal.rank-1.bin and journal.part-1-of-3.bin and so on belong to other processes
-// that took part, now or earlier. A process that computes a part has such a journal as its own. A point does not depend on the process that computed it: two records of one point are the same bytes, or one
-// of them is damaged.
+// journal.bin belongs to this process; journal.rank-1.bin and journal.part-1-of-3.bin and so on belong to other
+// processes that took part, now or earlier. A process that computes a part has such a journal as its own. A point does
+// not depend on the process that computed it: two records of one point are the same bytes, or one of them is damaged.
 #pragma once
 
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -16,20 +15,13 @@
 #include <vector>
 
 #include "store/journal.hpp"
+#include "store/part.hpp"
 #include "studies/point_source.hpp"
 
 namespace epicyclic::store {
 
 /// Name of the journal of another process than the first.
 [[nodiscard]] std::string rank_journal_name(int rank);
-
-/// One of the parts into which a study's chains are dealt.
-struct Part {
-  std::size_t number = 0;  ///< from 1
-  std::size_t of = 0;      ///< how many there are; 0: the study is not computed in parts
-
-  friend auto operator<=>(const Part&, const Part&) = default;
-};
 
 /// Name of the journal of a process that computes a part.
 [[nodiscard]] std::string part_journal_name(const Part& part);

@@ -2,7 +2,7 @@
 # parts.sh EPICYCLIC SOURCE_DIR
 #
 # A sweep, a map and basins by 1, 2, 3 and 7 parts in an order that SEED gives, with kills and repetitions: the same bytes
-# as one process. Parts killed within KILLS sessions in all (6). Two starts of one part at once, a part that never came,
+# as one process. Parts killed within KILLS sessions in all (6). Two starts of one part at once, a part that is missing,
 # the command while a part runs, folders put together, refusals.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
@@ -57,7 +57,7 @@ while [ $rounds -lt ${#kinds[@]} ] || [ "$killed" -lt "$kills" ]; do
         *) fail "$folder, part $number/$of: exit code $code: $(<stderr)" ;;
       esac
     fi
-    # One of four never comes again.
+    # One of four is not repeated.
     if [ $((RANDOM % 4)) != 0 ]; then
       part "$folder" "$number/$of"
       [ ! -e "$folder/points.csv" ] || fail "$folder: a part wrote results"
@@ -74,14 +74,14 @@ done
 echo "$killed kills of parts in $rounds folders"
 
 declare -n study=sweep
-# A part that never came, and parts of two numbers. Four of the 16 points are those of 1/4.
+# A part that is missing, and parts of two numbers. Four of the 16 points are those of 1/4.
 part absent 1/4
 part absent 3/4
 part absent 1/2 # knows their points
 grep -q 'is complete already: 8 of 16 points' stdout || fail "the points of other parts were computed again: $(<stdout)"
 [ "$(code_of "$epicyclic" "${study[@]}" -o absent)" = 0 ] || fail "absent: $(<stderr)"
-grep -q '8 of 16 points came from parts' stderr || fail "it is not said how many came from parts: $(<stderr)"
-grep -q 'never came: part 2/4, 4/4' stderr || fail "it is not said which part never came: $(<stderr)"
+grep -q '8 of 16 points were computed by parts' stderr || fail "it is not said how many parts have computed: $(<stderr)"
+grep -q 'no journal of part 2/4, 4/4' stderr || fail "it is not said which part is missing: $(<stderr)"
 same_folder sweep absent
 part absent 2/4
 grep -q 'complete already' stderr || fail "a part of a complete study must say so: $(<stderr)"
@@ -101,7 +101,7 @@ wait
 ! grep -qvE '^(0|75)$' atonce.codes || fail "parts at once must give 0 or 75: $(<atonce.codes)"
 [ "$(grep -c '^0$' atonce.codes)" -ge 3 ] || fail "parts at once: not each was computed: $(<atonce.codes)"
 [ "$(code_of "$epicyclic" "${study[@]}" -o atonce)" = 0 ] || fail "atonce: $(<stderr)"
-! grep -q 'never came' stderr || fail "all parts came: $(<stderr)"
+! grep -q 'no journal of part' stderr || fail "no part is missing: $(<stderr)"
 same_folder sweep atonce
 
 # Parts in folders of their own, put together: all of them, and one too few.

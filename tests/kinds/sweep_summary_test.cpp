@@ -123,14 +123,14 @@ TEST(SweepSummary, TellsWhereTheLargestForceIs) {
   points[0].meshes.ring_planet[0].force.largest = 400.0;
   SweepSummary s = told(points);
   EXPECT_EQ(s.numbers["largest_dynamic_factor"], 4.0);
-  EXPECT_EQ(s.lines.back(), "largest force of a ring mesh over F_0, which is that of a sun mesh: 4 at 1, up, period 1");
+  EXPECT_EQ(s.lines.back(), "largest force of a ring mesh over F_0 of a sun mesh: 4 at 1, up, period 1");
   EXPECT_FALSE(s.numbers.contains("largest_kv")) << "no quasi-static force is known";
   // Not what a record on its way to its orbit says, and not of one that failed.
   points[0].recurrence.period = 0;
   points[1].outcome = integrate::Outcome::diverged;
   s = told(points);
   EXPECT_NEAR(s.numbers["largest_dynamic_factor"].get<double>(), 2.2, 1e-12);
-  EXPECT_EQ(s.lines.back(), "largest force of a sun mesh over F_0: 2.2 at 2, down, period 1");
+  EXPECT_EQ(s.lines.back(), "largest force of a sun mesh over its static force F_0: 2.2 at 2, down, period 1");
   EXPECT_NE(s.text.find("1 failed"), std::string::npos);
 }
 
@@ -144,7 +144,7 @@ TEST(SweepSummary, SpeaksOfTheSpeedThatTheStudyGives) {
   for (const char* words :
        {"along `sun_speed_rpm`, 1500 to 4500 (`mesh_frequency_ratio` 1 to 3), up and down",
         "| up | period 1 | 1500 | 4500 | 3 |", "| 4500 | period 1 | period 2 |",
-        "| force of a sun mesh over F_0 | 2.3 | 1 | 4500 (sun_speed_rpm), up, period 1 |"})
+        "| force of a sun mesh over its static force F_0 | 2.3 | 1 | 4500 (sun_speed_rpm), up, period 1 |"})
     EXPECT_NE(s.text.find(words), std::string::npos) << words << '\n' << s.text;
   EXPECT_EQ(s.lines.front(), "two attractors coexist at 1 of 3 values: 4500");
 }
