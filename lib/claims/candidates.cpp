@@ -51,11 +51,11 @@ bool needs_multipliers(const ClaimsOptions& options, const ClaimSweep& sweep) {
 }  // namespace
 
 Glance search_glance(const ClaimsOptions& options) {
-  return {options.screening, &ClaimSweep::screening_points, options.search.regime_cost};
+  return {options.screening, &ClaimSweep::screening_points, options.search.regime_cost, options.search.reading};
 }
 
 Glance survey_glance(const ClaimsOptions& options) {
-  return {options.survey.recording, &ClaimSweep::survey_points, SearchLead::regimes};
+  return {options.survey.recording, &ClaimSweep::survey_points, SearchLead::regimes, options.survey.reading};
 }
 
 void screen(const ClaimsOptions& options, const Glance& glance, const SweepModels& models,
@@ -87,7 +87,10 @@ void screen(const ClaimsOptions& options, const Glance& glance, const SweepModel
     results[k].point.value = cells[k].second;
     record[cells[k].first->name].points.push_back(claim_point(results[k], recording, Depth::screening));
   }
-  if (glance.regime_cost == SearchLead::regimes) return;
+  if (glance.regime_cost == SearchLead::dots)
+    for (const ClaimSweep* sweep : sweeps)
+      add_dots(record[sweep->name], options.printed, recording.recurrence_tolerance);
+  if (glance.regime_cost != SearchLead::multipliers) return;
   for (const ClaimSweep* sweep : sweeps) {
     if (!needs_multipliers(options, *sweep)) continue;
     std::vector<ClaimPoint>& points = record[sweep->name].points;
@@ -123,12 +126,13 @@ std::vector<const ClaimSweep*> sweeps_spoken_of(const ClaimsOptions& options) {
 }
 
 /// Judges the claims whose sweeps are all there and that have not been judged.
-void judge_known(const ClaimsOptions& options, const ClaimRecord& record, Evaluation& evaluation) {
+/// @param record  of read_as()
+void judge_known(const ClaimsOptions& options, const ClaimRecord& record, Reading reading, Evaluation& evaluation) {
   for (std::size_t k = 0; k < options.claims.size(); ++k) {
     const Claim& claim = options.claims[k];
     const auto is_there = [&](const std::string& name) { return record.contains(name); };
     if (!std::isnan(evaluation.claim_costs[k]) || !std::ranges::all_of(sweeps_of(claim), is_there)) continue;
-    const ClaimOutcome outcome = judge(claim, record);
+    const ClaimOutcome outcome = judge(claim, record, reading);
     evaluation.claim_costs[k] = outcome.cost;
     evaluation.holds[k] = outcome.holds ? 1 : 0;
     evaluation.cost += claim.weight * outcome.cost;
@@ -153,12 +157,12 @@ Evaluation evaluate(const ClaimsOptions& options, const Glance& glance, const Sw
     std::ranges::copy_if(spoken_of, std::back_inserter(sweeps),
                          [&](const auto* s) { return s->screening_round == round; });
     screen(options, glance, models, sweeps, thread, stop, record);
-    judge_known(options, record, evaluation);
+    judge_known(options, read_as(glance.reading, record, options), glance.reading, evaluation);
   }
   return evaluation;
 }
 
-Evaluation evaluate_whole(const ClaimsOptions& options, const integrate::IntegratorOptions& integrator,
+Evaluation evaluate_whole(const ClaimsOptions& options, const integrate::IntegratorOptions& integrator, Reading reading,
                           const SweepModels& models, const std::atomic<bool>* stop) {
   ClaimRecord record;
   for (const ClaimSweep* sweep : sweeps_spoken_of(options)) {
@@ -173,7 +177,7 @@ Evaluation evaluate_whole(const ClaimsOptions& options, const integrate::Integra
     record[sweep->name] = claim_series(points_in_memory(points), options.recording);
   }
   Evaluation evaluation = unknown(options);
-  judge_known(options, record, evaluation);
+  judge_known(options, read_as(reading, std::move(record), options), reading, evaluation);
   return evaluation;
 }
 
@@ -192,7 +196,7 @@ Evaluator evaluator_of(const ClaimsOptions& options, const Glance& glance,
     };
     try {
       const SweepModels of_candidate = models(q.u);
-      return q.whole ? evaluate_whole(options, integrator, of_candidate, stop)
+      return q.whole ? evaluate_whole(options, integrator, glance.reading, of_candidate, stop)
                      : evaluate(options, glance, of_candidate, q.give_up_at, q.thread, stop);
     } catch (const InputError& error) {
       return refused(error.what());

@@ -38,6 +38,7 @@ struct Glance {
   Screening recording;
   int ClaimSweep::*points = &ClaimSweep::screening_points;
   SearchLead regime_cost = SearchLead::regimes;
+  Reading reading = Reading::evidence;
 };
 
 /// The screening of a search, and that of a survey.
@@ -57,7 +58,7 @@ class EvaluationStopped {};
 /// @param stop  may be null
 /// @throws EvaluationStopped
 [[nodiscard]] Evaluation evaluate_whole(const ClaimsOptions& options, const integrate::IntegratorOptions& integrator,
-                                        const SweepModels& models, const std::atomic<bool>* stop);
+                                        Reading reading, const SweepModels& models, const std::atomic<bool>* stop);
 
 /// What is requested of a candidate.
 struct Question {
@@ -79,7 +80,7 @@ using Evaluator = std::function<Evaluation(const Question& question)>;
                                      const integrate::IntegratorOptions& integrator, CandidateModels models,
                                      const std::atomic<bool>* stop);
 
-/// The record of some sweeps by a screening.
+/// The record of some sweeps by a screening, by evidence.
 /// @throws EvaluationStopped
 void screen(const ClaimsOptions& options, const Glance& glance, const SweepModels& models,
             const std::vector<const ClaimSweep*>& sweeps, std::size_t thread, const std::atomic<bool>* stop,

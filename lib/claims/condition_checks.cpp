@@ -297,7 +297,12 @@ void check_part(ProblemList& problems, const std::string& place, const Condition
 /// Requirements of a condition on the records of each evaluation, for any sweep.
 void check_screening(ProblemList& problems, const std::string& place, const Condition& c,
                      const ClaimsOptions& options) {
+  const bool is_printed = options.has_reading(Reading::printed);
   for (const auto& [key, word] : regime_words(c)) {
+    if (is_printed && period_of_word(word) > options.printed.period_max)
+      problems.refuse(place + "/" + key, "is \"" + word + "\", more than the printed/period_max = " +
+                                             std::to_string(options.printed.period_max) +
+                                             " clusters that a reader of a diagram counts");
     const int period = period_of_word(word);
     if (period > options.recording.period_max)
       problems.refuse(place + "/" + key, "is \"" + word + "\", longer than period_max = " +
@@ -308,7 +313,7 @@ void check_screening(ProblemList& problems, const std::string& place, const Cond
                                              "\", which takes twice as many recorded_periods to be seen; " +
                                              "`screening` or `survey` record fewer");
   }
-  if (options.recording.classification_periods == 0)
+  if (options.recording.classification_periods == 0 && options.is_scored(Reading::evidence))
     for (const auto& [key, word] : regime_words(c))
       if (needs_evidence(word))
         problems.refuse(

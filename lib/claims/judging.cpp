@@ -68,7 +68,7 @@ bool ClaimRegime::is(std::string_view word) const {
   const bool periodic = regime == Regime::periodic;
   if (word == "periodic") return periodic;
   if (word == "multi-period") return periodic && period >= 2;
-  if (word == "quasiperiodic") return regime == Regime::quasiperiodic;
+  if (word == "quasiperiodic") return regime == Regime::quasiperiodic || (drawn && regime == Regime::chaotic);
   if (word == "chaotic") return regime == Regime::chaotic || (regime == Regime::undecided && !classified);
   if (word == "aperiodic")
     return regime == Regime::chaotic || regime == Regime::quasiperiodic || (!periodic && !classified);
@@ -82,6 +82,16 @@ std::string ClaimRegime::text() const {
 double ClaimPoint::quantity(std::string_view name) const {
   const auto* const found = std::ranges::find(claim_quantities, name);
   return quantities.at(static_cast<std::size_t>(found - claim_quantities.begin()));
+}
+
+double& ClaimPoint::quantity_of(std::string_view name) {
+  const auto* const found = std::ranges::find(claim_quantities, name);
+  return quantities.at(static_cast<std::size_t>(found - claim_quantities.begin()));
+}
+
+std::optional<double> ClaimPoint::lacks(std::string_view word) const {
+  if (period_one) return period_one->lacks(word);
+  return dots ? dots->lacks(word) : std::nullopt;
 }
 
 namespace {
@@ -152,6 +162,14 @@ ClaimPoint claim_point(const PointResult& result, const RecordingOptions& record
                       result.meshes.dynamic_factor(result.meshes.sun_planet),
                       result.meshes.dynamic_factor(result.meshes.ring_planet),
                       result.meshes.largest_share()};
+  const auto sorted = [](const analysis::PoincareSection& section) {
+    std::vector<double> points;
+    for (const auto& state : section.states) points.push_back(state);
+    std::ranges::sort(points);
+    return points;
+  };
+  point.sun_section = sorted(sun);
+  point.ring_section = sorted(ring);
   return point;
 }
 
@@ -172,6 +190,60 @@ ClaimSeries claim_series(const PointSource& points, const RecordingOptions& reco
   std::ranges::sort(series.points, {}, &ClaimPoint::value);
   std::ranges::sort(series.other, {}, &ClaimPoint::value);
   return series;
+}
+
+namespace {
+
+/// Of a diagram of one mesh.
+double axis_of(const std::vector<ClaimPoint>& points, std::vector<double> ClaimPoint::*section,
+               double recurrence_tolerance) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const ClaimPoint& p : points) {
+    if (!p.reached) continue;
+    low = std::min(low, (p.*section).front());
+    high = std::max(high, (p.*section).back());
+  }
+  return axis_length(low, high, recurrence_tolerance);
+}
+
+ClaimRegime regime_of(const DotColumn& dots) {
+  const int period = dots.period();
+  return {period > 0 ? Regime::periodic : Regime::chaotic, period, true, true};
+}
+
+}  // namespace
+
+void add_dots(ClaimSeries& series, const PrintedDots& ink, double recurrence_tolerance) {
+  const double axis = axis_of(series.points, &ClaimPoint::sun_section, recurrence_tolerance);
+  for (std::vector<ClaimPoint>* list : {&series.points, &series.other})
+    for (ClaimPoint& p : *list)
+      if (p.reached) p.dots.emplace(p.sun_section, axis, ink);
+}
+
+ClaimSeries as_printed(ClaimSeries series, const PrintedDots& ink, double recurrence_tolerance) {
+  const double sun_axis = axis_of(series.points, &ClaimPoint::sun_section, recurrence_tolerance);
+  const double ring_axis = axis_of(series.points, &ClaimPoint::ring_section, recurrence_tolerance);
+  for (std::vector<ClaimPoint>* list : {&series.points, &series.other})
+    for (ClaimPoint& p : *list) {
+      if (!p.reached) continue;
+      p.by_sun_mesh = p.response = regime_of(DotColumn(p.sun_section, sun_axis, ink));
+      p.by_ring_mesh = regime_of(DotColumn(p.ring_section, ring_axis, ink));
+      const auto drawn_range = [](const std::vector<double>& section, const ClaimRegime& regime) {
+        return regime.is("period 1") ? 0.0 : section.back() - section.front();
+      };
+      p.quantity_of("poincare_sp_range") = drawn_range(p.sun_section, p.by_sun_mesh);
+      p.quantity_of("poincare_rp_range") = drawn_range(p.ring_section, p.by_ring_mesh);
+      p.drawn = {p.sun_section.front() / sun_axis, p.sun_section.back() / sun_axis};
+    }
+  return series;
+}
+
+ClaimRecord read_as(Reading reading, ClaimRecord record, const ClaimsOptions& options) {
+  if (reading == Reading::evidence) return record;
+  for (auto& [name, series] : record)
+    series = as_printed(std::move(series), options.printed, options.recording.recurrence_tolerance);
+  return record;
 }
 
 namespace {
@@ -282,12 +354,11 @@ std::string doubts_text(const Condition& c, std::span<const ClaimPoint> part) {
   return text;
 }
 
-/// What points lack of a regime, by their orbits of period 1.
-/// @returns nothing if no orbit was followed, or if it does not determine the lack
+/// What points lack of a regime.
 std::vector<double> lacks(std::span<const ClaimPoint> part, std::string_view word) {
   std::vector<double> all;
   for (const ClaimPoint& p : part)
-    if (const auto lack = p.period_one ? p.period_one->lacks(word) : std::nullopt) all.push_back(*lack);
+    if (const auto lack = p.lacks(word)) all.push_back(*lack);
   return all;
 }
 
@@ -641,9 +712,12 @@ void jump(const Condition& c, const ClaimSeries& series, std::span<const ClaimPo
 }
 
 /// Of two neighbouring points: 1 for another regime, else the relative change of the Poincare range. A range below the
-/// recurrence tolerance counts as none. Neither point may have failed.
+/// recurrence tolerance counts as none. As printed, the change of the least or the greatest dot over the axis. Neither
+/// point may have failed.
 double variation_between(const ClaimPoint& a, const ClaimPoint& b) {
   if (!a.response.same(b.response)) return 1.0;
+  if (a.drawn && b.drawn)
+    return std::max(std::abs((*a.drawn)[0] - (*b.drawn)[0]), std::abs((*a.drawn)[1] - (*b.drawn)[1]));
   // The section of period 1 is one point; this range is that of the oscillation in time.
   const bool point = a.response.is("period 1");
   const std::string_view name = point ? "delta_sp_range" : "poincare_sp_range";
@@ -847,15 +921,28 @@ ConditionOutcome judge(const Condition& c, const ClaimRecord& record) {
   return o;
 }
 
-ClaimOutcome judge(const Claim& claim, const ClaimRecord& record) {
+namespace {
+
+/// All conditions of a list have to hold.
+ClaimOutcome judge_all(const std::vector<Condition>& conditions, const ClaimRecord& record) {
   ClaimOutcome outcome;
   outcome.holds = true;
   outcome.cost = 0.0;
-  for (const Condition& condition : claim.conditions) {
+  for (const Condition& condition : conditions) {
     outcome.conditions.push_back(judge(condition, record));
     outcome.holds = outcome.holds && outcome.conditions.back().holds;
-    outcome.cost += outcome.conditions.back().cost / static_cast<double>(claim.conditions.size());
+    outcome.cost += outcome.conditions.back().cost / static_cast<double>(conditions.size());
   }
+  return outcome;
+}
+
+}  // namespace
+
+ClaimOutcome judge(const Claim& claim, const ClaimRecord& record, Reading reading) {
+  ClaimOutcome outcome = judge_all(claim.conditions, record);
+  if (reading == Reading::printed && !outcome.holds && !claim.as_printed.empty())
+    if (ClaimOutcome instead = judge_all(claim.as_printed, record); instead.cost < outcome.cost)
+      outcome = std::move(instead);
   const std::vector<std::string> sweeps = sweeps_of(claim);
   const std::vector<std::string> compared = compared_with_others(claim);
   outcome.inert = std::ranges::all_of(sweeps, [&](const std::string& name) {
@@ -871,10 +958,11 @@ ClaimOutcome judge(const Claim& claim, const ClaimRecord& record) {
 
 std::vector<std::string> sweeps_of(const Claim& claim) {
   std::set<std::string> names;
-  for (const Condition& c : claim.conditions) {
-    if (!c.sweep.empty()) names.insert(c.sweep);
-    names.insert(c.sweeps.begin(), c.sweeps.end());
-  }
+  for (const auto* conditions : {&claim.conditions, &claim.as_printed})
+    for (const Condition& c : *conditions) {
+      if (!c.sweep.empty()) names.insert(c.sweep);
+      names.insert(c.sweeps.begin(), c.sweeps.end());
+    }
   return {names.begin(), names.end()};
 }
 

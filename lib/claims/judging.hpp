@@ -17,6 +17,9 @@
 // A change between two regimes is placed halfway between the two points that enclose it, with half their distance as
 // its error. Failed points count as no regime at all, and against an upper bound. The Poincare range of period 1 is 0.
 // Grid values equal a bound if they differ from it by rounding alone.
+//
+// As printed, points have the regimes that the dots of their bifurcation diagrams have, those of delta_sp,1 and, for
+// the ring's mesh, of delta_rp,1. A claim also holds as printed if all its conditions `as_printed` hold.
 #pragma once
 
 #include <cstddef>
@@ -28,13 +31,14 @@
 
 #include "claims/options.hpp"
 #include "claims/period_one.hpp"
+#include "claims/printed_diagram.hpp"
 #include "studies/point_source.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::claims {
 
 /// Version of judge(): it is raised when the judgement of the same points may change.
-inline constexpr int judging_version = 4;
+inline constexpr int judging_version = 5;
 
 /// How points were evaluated. In a screening, a record without recurrence counts as chaotic, and one that approaches
 /// recurrence counts as periodic. In full, a regime that the evidence does not decide stays undecided.
@@ -45,6 +49,7 @@ struct ClaimRegime {
   analysis::Regime regime = analysis::Regime::undecided;
   int period = 0;           ///< if periodic
   bool classified = false;  ///< by more than a glance; otherwise what does not recur counts as chaotic
+  bool drawn = false;       ///< as printed: chaotic is any cloud of dots
 
   /// @param word  of is_regime_word()
   [[nodiscard]] bool is(std::string_view word) const;
@@ -60,9 +65,17 @@ struct ClaimPoint {
   ClaimRegime response;
   ClaimRegime by_sun_mesh, by_ring_mesh;  ///< from the deflection of planet 1's mesh alone
   std::array<double, claim_quantities.size()> quantities{};
-  std::optional<PeriodOne> period_one;  ///< where it was followed
+  std::vector<double> sun_section, ring_section;  ///< Poincare points of planet 1's meshes, rising [b_c]
+  std::optional<PeriodOne> period_one;            ///< where it was followed
+  std::optional<DotColumn> dots;                  ///< of the sun's mesh, where they lead a search
+  /// Least and greatest Poincare point of the sun's mesh over the length of the axis; as printed only.
+  std::optional<std::array<double, 2>> drawn;
 
   [[nodiscard]] double quantity(std::string_view name) const;
+  double& quantity_of(std::string_view name);
+  /// What it lacks of a regime, by period_one or dots.
+  /// @returns nothing if neither is there, or if it does not determine the lack
+  [[nodiscard]] std::optional<double> lacks(std::string_view word) const;
 };
 
 /// @param result  with its Poincare section
@@ -81,8 +94,17 @@ struct ClaimSeries {
 /// A sweep's points in full: those up, and beside them those down, if there are any.
 [[nodiscard]] ClaimSeries claim_series(const studies::PointSource& points, const studies::RecordingOptions& recording);
 
+/// The dots of all points of a series, on the axis of its points.
+void add_dots(ClaimSeries& series, const PrintedDots& ink, double recurrence_tolerance);
+
+/// A series with the regimes that a printed diagram shows.
+[[nodiscard]] ClaimSeries as_printed(ClaimSeries series, const PrintedDots& ink, double recurrence_tolerance);
+
 /// Series by the names of the sweeps.
 using ClaimRecord = std::map<std::string, ClaimSeries, std::less<>>;
+
+/// The record as a reading has it; by evidence it is the record itself.
+[[nodiscard]] ClaimRecord read_as(Reading reading, ClaimRecord record, const ClaimsOptions& options);
 
 /// Name for points that are not `converged`, in the texts of outcomes.
 inline constexpr std::string_view not_converged = "not converged";
@@ -106,7 +128,8 @@ struct ClaimOutcome {
   bool inert = false;  ///< nothing that it depends on changes along its sweeps, by symmetry, say
 };
 
-[[nodiscard]] ClaimOutcome judge(const Claim& claim, const ClaimRecord& record);
+/// @param record  of read_as()
+[[nodiscard]] ClaimOutcome judge(const Claim& claim, const ClaimRecord& record, Reading reading = Reading::evidence);
 
 /// Names of the sweeps of a claim.
 [[nodiscard]] std::vector<std::string> sweeps_of(const Claim& claim);

@@ -34,6 +34,12 @@ SweepOptions ClaimsOptions::whole_sweep(const ClaimSweep& sweep, Start start) co
   return plan;
 }
 
+bool ClaimsOptions::is_scored(Reading reading) const { return std::ranges::find(readings, reading) != readings.end(); }
+
+bool ClaimsOptions::has_reading(Reading reading) const {
+  return is_scored(reading) || (space.dimension() > 0 && (search.reading == reading || survey.reading == reading));
+}
+
 std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const {
   ProblemList problems;
   const Names names = problems.names(sweeps, "/sweeps");
@@ -67,9 +73,7 @@ std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const
   for (std::size_t k = 0; k < claims.size(); ++k) {
     const std::string place = "/claims/" + std::to_string(k) + "/conditions";
     if (claims[k].conditions.empty()) problems.refuse(place, "is empty: the claim would always hold");
-    for (std::size_t c = 0; c < claims[k].conditions.size(); ++c) {
-      const Condition& condition = claims[k].conditions[c];
-      const std::string at = place + "/" + std::to_string(c);
+    const auto check_at = [&](const Condition& condition, const std::string& at) {
       check_condition(problems, at, condition, names);
       std::string parameter;
       for (std::size_t j = 0; j < condition.sweeps.size(); ++j) {
@@ -83,7 +87,11 @@ std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const
         if (parameter.empty()) parameter = sweep->axis.name;
       }
       check_grids(problems, at, condition, *this);
-    }
+    };
+    for (std::size_t c = 0; c < claims[k].conditions.size(); ++c)
+      check_at(claims[k].conditions[c], place + "/" + std::to_string(c));
+    for (std::size_t c = 0; c < claims[k].as_printed.size(); ++c)
+      check_at(claims[k].as_printed[c], "/claims/" + std::to_string(k) + "/as_printed/" + std::to_string(c));
   }
   for (std::size_t k = 0; k < figures.size(); ++k) {
     const std::string place = "/figures/" + std::to_string(k);
@@ -103,20 +111,27 @@ std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const
     }
   }
   if (starts.empty()) problems.refuse("/starts", "is empty");
-  const auto check_recorded = [&](int recorded, int classified, const std::string& place) {
+  if (readings.empty()) problems.refuse("/readings", "is empty");
+  const auto check_recorded = [&](int recorded, int classified, bool is_printed, const std::string& place) {
     if (recorded < 2 && classified == 0)
       problems.refuse(place,
                       "is 1, must be >= 2 with classification_periods = 0: of one Poincare point nothing comes back");
+    if (is_printed && recorded < 2 * printed.period_max)
+      problems.refuse(place, "is " + std::to_string(recorded) +
+                                 ", must be >= 2 printed/period_max = " + std::to_string(2 * printed.period_max) +
+                                 ": fewer dots of a chaotic response look like a period");
   };
-  check_recorded(recording.recorded_periods, recording.classification_periods, "/recorded_periods");
+  check_recorded(recording.recorded_periods, recording.classification_periods, is_scored(Reading::printed),
+                 "/recorded_periods");
   if (space.dimension() > 0) {
-    check_recorded(screening.recorded_periods, screening.classification_periods, "/screening/recorded_periods");
+    check_recorded(screening.recorded_periods, screening.classification_periods, search.reading == Reading::printed,
+                   "/screening/recorded_periods");
     check_recorded(survey.recording.recorded_periods, survey.recording.classification_periods,
-                   "/survey/screening/recorded_periods");
+                   survey.reading == Reading::printed, "/survey/screening/recorded_periods");
   }
   for (std::size_t k = 0; k < sweeps.size(); ++k)
     if (sweeps[k].recorded_periods)
-      check_recorded(*sweeps[k].recorded_periods, recording.classification_periods,
+      check_recorded(*sweeps[k].recorded_periods, recording.classification_periods, is_scored(Reading::printed),
                      "/sweeps/" + std::to_string(k) + "/recorded_periods");
   check_space(problems, space);
   return std::move(problems).found();

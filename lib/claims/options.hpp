@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "claims/parameter_space.hpp"
+#include "claims/printed_diagram.hpp"
 #include "studies/recording_options.hpp"
 #include "studies/sweep_options.hpp"
 
@@ -109,6 +110,13 @@ struct Claim {
   std::string published;  ///< the value that is published
   double weight = 1;      ///< of its cost in a search
   std::vector<Condition> conditions;
+  std::vector<Condition> as_printed = {};  ///< what a reader of the diagram accepts instead
+};
+
+/// Where the regimes of points come from.
+enum class Reading {
+  evidence,  ///< recurrence, orbits and exponents
+  printed,   ///< the dots of a printed diagram [printed_diagram.hpp]
 };
 
 enum class MeshSide { sun_planet, ring_planet };
@@ -140,7 +148,8 @@ struct Screening {
 struct SurveyOptions {
   int draws = 1000;
   int seed = 1;
-  int confirmed = 0;  ///< of the draws: also compared with whole sweeps, as a check of the screening
+  int confirmed = 0;                    ///< of the draws: also compared with whole sweeps, as a check of the screening
+  Reading reading = Reading::evidence;  ///< of the claims
   Screening recording;
 };
 
@@ -152,13 +161,15 @@ enum class SearchMethod {
 /// What determines the cost of conditions on regimes that fail.
 enum class SearchLead {
   regimes,      ///< number and location of the points with the claimed regimes
-  multipliers,  ///< those of the orbit of period 1 along the sweeps [studies/period_one.hpp]
+  multipliers,  ///< those of the orbit of period 1 along the sweeps [claims/period_one.hpp]
+  dots,         ///< heights and gaps of the dots of the sweeps' diagrams [claims/printed_diagram.hpp]
 };
 
 struct SearchOptions {
   SearchMethod method = SearchMethod::differential_evolution;
   SearchLead regime_cost = SearchLead::regimes;
-  double spread = 0.15;  ///< covariance adaptation: of its first candidates, in parts of the ranges
+  Reading reading = Reading::evidence;  ///< of the claims
+  double spread = 0.15;                 ///< covariance adaptation: of its first candidates, in parts of the ranges
   int seed = 1;
   int islands = 4;
   int population = 24;          ///< candidates on an island, at least 7
@@ -173,6 +184,8 @@ struct ClaimsOptions {
   studies::RecordingOptions recording;
   std::vector<studies::Start> starts = {studies::Start::continued,
                                         studies::Start::cold};  ///< the first is the verdict, others stand beside it
+  std::vector<Reading> readings = {Reading::evidence};          ///< the first is the verdict, others stand beside it
+  PrintedDots printed;
   std::vector<ClaimSweep> sweeps;
   std::vector<Claim> claims;
   std::vector<ClaimFigure> figures;
@@ -183,6 +196,12 @@ struct ClaimsOptions {
 
   /// A sweep of the claims in full, from one kind of start.
   [[nodiscard]] studies::SweepOptions whole_sweep(const ClaimSweep& sweep, studies::Start start) const;
+
+  /// Are claims read so by `reproduce`?
+  [[nodiscard]] bool is_scored(Reading reading) const;
+
+  /// Are claims read so, by `reproduce`, a search or a survey?
+  [[nodiscard]] bool has_reading(Reading reading) const;
 
   /// Errors, each at its place below the study: ("/claims/3/conditions/0/regime", "is ..., must be ...").
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> problems() const;

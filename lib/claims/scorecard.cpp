@@ -30,7 +30,17 @@ using reports::parameter_label;
 
 namespace {
 
-std::string start_name(studies::Start start) { return start == studies::Start::cold ? "cold" : "continued"; }
+/// "continued", "cold_printed": a column of verdicts.
+std::string column_name(const ScoredStart& scored) {
+  return std::string(scored.start == studies::Start::cold ? "cold" : "continued") +
+         (scored.reading == Reading::printed ? "_printed" : "");
+}
+
+/// "continued", "cold, as printed".
+std::string column_title(const ScoredStart& scored) {
+  return std::string(scored.start == studies::Start::cold ? "cold" : "continued") +
+         (scored.reading == Reading::printed ? ", as printed" : "");
+}
 
 std::string verdict(const ClaimOutcome& outcome) { return outcome.holds ? "holds" : "fails"; }
 
@@ -60,9 +70,9 @@ std::size_t Scorecard::holding_inert() const {
 
 std::string scorecard_csv(const Scorecard& card) {
   std::vector<std::string> columns = {"claim"};
-  for (const ScoredStart& s : card.scored) columns.push_back(start_name(s.start));
+  for (const ScoredStart& s : card.scored) columns.push_back(column_name(s));
   columns.emplace_back("nothing_changes");
-  for (const ScoredStart& s : card.scored) columns.push_back("measured_" + start_name(s.start));
+  for (const ScoredStart& s : card.scored) columns.push_back("measured_" + column_name(s));
   CsvWriter csv(columns);
   for (std::size_t k = 0; k < card.options.claims.size(); ++k) {
     csv.cell(card.options.claims[k].name);
@@ -74,19 +84,48 @@ std::string scorecard_csv(const Scorecard& card) {
   return csv.text();
 }
 
+namespace {
+
+/// Which claims hold in which reading, with the first of the starts; empty if there is one reading.
+std::string senses_text(const Scorecard& card) {
+  const auto of = [&](Reading reading) {
+    return std::ranges::find_if(card.scored, [&](const ScoredStart& s) {
+      return s.reading == reading && s.start == card.scored.front().start;
+    });
+  };
+  const auto evidence = of(Reading::evidence);
+  const auto printed = of(Reading::printed);
+  if (evidence == card.scored.end() || printed == card.scored.end()) return {};
+  std::array<std::vector<std::string>, 4> lists;  // neither, evidence, printed, both
+  for (std::size_t k = 0; k < card.options.claims.size(); ++k)
+    lists[(evidence->outcomes[k].holds ? 1U : 0U) + (printed->outcomes[k].holds ? 2U : 0U)].push_back(
+        markdown_cell(card.options.claims[k].name));
+  constexpr std::array<const char*, 4> titles = {"in neither reading", "by evidence only", "as printed only",
+                                                 "in both readings"};
+  std::string text = "| claims that hold | number | which |\n|---|---|---|\n";
+  for (const std::size_t k : {3U, 1U, 2U, 0U})
+    text += fmt::format("| {} | {} | {} |\n", titles[k], lists[k].size(), fmt::join(lists[k], ", "));
+  return text + "\n";
+}
+
+}  // namespace
+
 std::string scorecard_summary(const Scorecard& card) {
   std::string text = fmt::format("# Claims compared with {}\n\n", card.name);
   text += fmt::format("{} of {} claims hold", card.holding(), card.options.claims.size());
   if (card.holding_inert() > 0)
     text += fmt::format(", {} of them on sweeps along which no quantity of the claim changes, by symmetry for example",
                         card.holding_inert());
-  text += fmt::format(" (points {}).\n\n", card.scored.front().start == studies::Start::cold
-                                               ? "that start cold"
-                                               : "whose initial state continues from the previous point");
+  text += fmt::format(
+      " ({}points {}).\n\n",
+      card.scored.front().reading == Reading::printed ? "regimes as a printed diagram shows them, " : "",
+      card.scored.front().start == studies::Start::cold ? "that start cold"
+                                                        : "whose initial state continues from the previous point");
+  text += senses_text(card);
   text += "| claim | where | what | published |";
   std::string line = "|---|---|---|---|";
   for (const ScoredStart& s : card.scored) {
-    text += fmt::format(" {} |", start_name(s.start));
+    text += fmt::format(" {} |", column_title(s));
     line += "---|";
   }
   text += " measured |\n" + line + "---|\n";
@@ -107,9 +146,8 @@ std::string scorecard_summary(const Scorecard& card) {
     std::string other;
     for (std::size_t k = 0; k < card.options.claims.size(); ++k)
       if (card.scored[s].outcomes[k].holds != card.scored.front().outcomes[k].holds)
-        other += fmt::format("- {}, {}: {}\n", card.options.claims[k].name, start_name(card.scored[s].start),
-                             measured_text(card.scored[s].outcomes[k]));
-    if (!other.empty()) text += "\nWhere another start gives another verdict:\n\n" + other;
+        other += fmt::format("- {}: {}\n", card.options.claims[k].name, measured_text(card.scored[s].outcomes[k]));
+    if (!other.empty()) text += fmt::format("\nOther verdicts ({}):\n\n{}", column_title(card.scored[s]), other);
   }
   return text;
 }
@@ -124,7 +162,7 @@ json verdicts_of(const Scorecard& card) {
   json list = json::array();
   for (std::size_t k = 0; k < card.options.claims.size(); ++k) {
     json one = {{"claim", card.options.claims[k].name}};
-    for (const ScoredStart& s : card.scored) one[start_name(s.start)] = verdict(s.outcomes[k]);
+    for (const ScoredStart& s : card.scored) one[column_name(s)] = verdict(s.outcomes[k]);
     list.push_back(std::move(one));
   }
   return list;
@@ -241,9 +279,9 @@ std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder,
       const std::string words = panel.title.empty() ? symbol : figures::verbatim_text(panel.title) + "    " + symbol;
       // The axis spans at least ten recurrence tolerances, so that smaller widths appear as a point.
       const double middle = 0.5 * (y.low + y.high);
-      const double least = 10.0 * card.options.recording.recurrence_tolerance;
-      if (y.high - y.low < least)
-        for (const double side : {-0.5, 0.5}) y.include(middle + side * least);
+      const double axis = axis_length(y.low, y.high, card.options.recording.recurrence_tolerance);
+      if (y.high - y.low < axis)
+        for (const double side : {-0.5, 0.5}) y.include(middle + side * axis);
       sketch.panel(words, y.widened(figures::figure_margin));
       constexpr double dot = 0.25;
       sketch.add(dots, figures::dots(figures::ink::blue, dot));

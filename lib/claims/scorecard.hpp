@@ -20,18 +20,20 @@
 
 namespace epicyclic::claims {
 
-/// The outcomes of the claims with one kind of start.
+/// The outcomes of the claims with one kind of start, in one reading.
 struct ScoredStart {
   studies::Start start = studies::Start::continued;
+  Reading reading = Reading::evidence;
   std::vector<ClaimOutcome> outcomes;  ///< of each claim, in order
 };
 
 struct Scorecard {
   std::string name;  ///< of the study
   ClaimsOptions options;
-  std::vector<ScoredStart> scored;  ///< in the order of the options' starts
+  std::vector<ScoredStart> scored;  ///< in the order of the options' readings, and of their starts
 
-  /// Claims that hold with the start that the claims state, and how many of them hold for any stage.
+  /// Claims that hold with the start and in the reading that the claims state first, and how many of them hold for any
+  /// stage.
   [[nodiscard]] std::size_t holding() const;
   [[nodiscard]] std::size_t holding_inert() const;
 };

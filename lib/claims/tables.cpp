@@ -176,6 +176,26 @@ const Table<ClaimSweep>& claim_sweep_table() {
   return table;
 }
 
+namespace {
+
+std::vector<std::pair<std::string, Reading>> reading_choices() {
+  return {{"evidence", Reading::evidence}, {"printed", Reading::printed}};
+}
+
+const Table<PrintedDots>& printed_dots_table() {
+  static const auto table = [] {
+    Table<PrintedDots> t("printed_dots", "The dots of a printed diagram, whose axis spans all its Poincare points.");
+    t.number("dot", &PrintedDots::dot, above_up_to(0, 0.5), "Size of a dot, in parts of the axis [-].");
+    t.number("height", &PrintedDots::height, above_up_to(0, 1),
+             "Tallest cluster of dots that is one dot to a reader, in parts of the axis [-].");
+    t.integer("period_max", &PrintedDots::period_max, between(1, 64), "Clusters that a reader counts [-].");
+    return t;
+  }();
+  return table;
+}
+
+}  // namespace
+
 const Table<Claim>& claim_table() {
   static const auto table = [] {
     Table<Claim> t("claim", "A claim: it holds where all its conditions do.");
@@ -185,6 +205,8 @@ const Table<Claim>& claim_table() {
     t.text("published", &Claim::published, "The value that is published.");
     t.number("weight", &Claim::weight, between(0, 1e6), "Weight of its cost in a search [-].");
     t.objects("conditions", &Claim::conditions, condition_table(), list_most, "Its conditions.").required();
+    t.objects("as_printed", &Claim::as_printed, condition_table(), list_most,
+              "Conditions that a reader of the printed diagram accepts instead of the others, all together.");
     return t;
   }();
   return table;
@@ -239,6 +261,7 @@ const Table<SurveyOptions>& survey_options_table() {
     t.integer("seed", &SurveyOptions::seed, between(0, 1e9), "Seed of their random numbers [-].");
     t.integer("confirmed", &SurveyOptions::confirmed, between(0, 1e6),
               "Number of first draws that are compared with whole sweeps, as a check of the screening [-].");
+    t.choice("reading", &SurveyOptions::reading, reading_choices(), "How the claims are read.");
     t.object("screening", &SurveyOptions::recording, survey_recording_table());
     return t;
   }();
@@ -284,11 +307,14 @@ const Table<SearchOptions>& search_options_table() {
                  {"differential_evolution", SearchMethod::differential_evolution},
                  {"covariance_adaptation", SearchMethod::covariance_adaptation}},
              "Method of the islands: a global search, or one that begins at the given stage.");
-    t.choice("regime_cost", &SearchOptions::regime_cost,
-             std::vector<std::pair<std::string, SearchLead>>{{"regimes", SearchLead::regimes},
-                                                             {"multipliers", SearchLead::multipliers}},
-             "What gives the cost of a failed condition on regimes: the regimes of the screened points, or the Floquet "
-             "multipliers of the orbit of period 1, which is then continued along the sweeps.");
+    t.choice(
+        "regime_cost", &SearchOptions::regime_cost,
+        std::vector<std::pair<std::string, SearchLead>>{
+            {"regimes", SearchLead::regimes}, {"multipliers", SearchLead::multipliers}, {"dots", SearchLead::dots}},
+        "What gives the cost of a failed condition on regimes: the regimes of the screened points; or the Floquet "
+        "multipliers of the orbit of period 1, which is then continued along the sweeps; or heights and gaps of "
+        "the dots in the sweeps' diagrams.");
+    t.choice("reading", &SearchOptions::reading, reading_choices(), "How the claims are read.");
     t.number("spread", &SearchOptions::spread, above_up_to(0, 1),
              "Of the first candidates of a covariance adaptation, in parts of the ranges [-].");
     t.integer("seed", &SearchOptions::seed, between(0, 1e9), "Seed of its random numbers [-].");
@@ -332,6 +358,10 @@ const Table<Study>& claims_table() {
     input::add_kind_key(t, claims_kind().name);
     t.choices("starts", of(&ClaimsOptions::starts), input::start_choices(),
               "Where points of sweeps start; the first gives the verdict, the other stands beside it.");
+    t.choices("readings", of(&ClaimsOptions::readings), reading_choices(),
+              "Where the regimes of points come from: evidence, or the dots of a printed diagram. The first gives the "
+              "verdict, the other stands beside it.");
+    t.object("printed", of(&ClaimsOptions::printed), printed_dots_table());
     input::add_recording(t);
     input::add_classification(t);
     t.objects("sweeps", of(&ClaimsOptions::sweeps), claim_sweep_table(), 1000, "Sweeps that the claims speak of.")

@@ -65,15 +65,21 @@ using Finished = std::map<std::string, std::unique_ptr<FinishedStudy>, std::less
 claims::Scorecard score(const input::LoadedInput& input, const claims::ClaimsOptions& options,
                         const Finished& finished) {
   claims::Scorecard card{input.study.name, options, {}};
+  std::vector<claims::ClaimRecord> records;
   for (const studies::Start start : options.starts) {
-    claims::ClaimRecord record;
+    claims::ClaimRecord& record = records.emplace_back();
     for (const claims::ClaimSweep& sweep : options.sweeps)
       record[sweep.name] =
           claims::claim_series(finished.find(folder_name(sweep, start))->second->points(), options.recording);
-    claims::ScoredStart scored{start, {}};
-    for (const claims::Claim& claim : options.claims) scored.outcomes.push_back(claims::judge(claim, record));
-    card.scored.push_back(std::move(scored));
   }
+  for (const claims::Reading reading : options.readings)
+    for (std::size_t k = 0; k < records.size(); ++k) {
+      const claims::ClaimRecord record = claims::read_as(reading, records[k], options);
+      claims::ScoredStart scored{options.starts[k], reading, {}};
+      for (const claims::Claim& claim : options.claims)
+        scored.outcomes.push_back(claims::judge(claim, record, reading));
+      card.scored.push_back(std::move(scored));
+    }
   return card;
 }
 
