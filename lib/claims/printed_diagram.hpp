@@ -25,9 +25,10 @@ namespace epicyclic::claims {
 
 /// The ink of a diagram.
 struct PrintedDots {
-  double dot = 0.006;     ///< d: 0.5 mm on an axis of 80 mm
-  double height = 0.015;  ///< h: of a cluster that is still one dot to the eye
-  int period_max = 8;     ///< n_most: clusters that a reader counts
+  double dot = 0.006;                   ///< d: 0.5 mm on an axis of 80 mm
+  double height = 0.015;                ///< h: of a cluster that is still one dot to the eye
+  int period_max = 8;                   ///< n_most: clusters that a reader counts
+  std::vector<double> other_dots = {};  ///< sizes with which a scorecard compares its verdicts
 };
 
 /// Length of the axis of a diagram of these points [b_c]. At least ten recurrence tolerances, so that what recurs is

@@ -68,6 +68,27 @@ std::size_t Scorecard::holding_inert() const {
       std::ranges::count_if(scored.front().outcomes, [](const ClaimOutcome& o) { return o.holds && o.inert; }));
 }
 
+Scorecard score(std::string name, const ClaimsOptions& options, const std::vector<ClaimRecord>& records) {
+  Scorecard card{std::move(name), options, {}, {}};
+  for (const Reading reading : options.readings)
+    for (std::size_t k = 0; k < records.size(); ++k) {
+      const ClaimRecord record = read_as(reading, records[k], options);
+      ScoredStart scored{options.starts[k], reading, {}};
+      for (const Claim& claim : options.claims) scored.outcomes.push_back(judge(claim, record, reading));
+      card.scored.push_back(std::move(scored));
+    }
+  if (!options.is_scored(Reading::printed)) return card;
+  ClaimsOptions other = options;
+  for (const double dot : options.printed.other_dots) {
+    other.printed.dot = dot;
+    const ClaimRecord record = read_as(Reading::printed, records.front(), other);
+    ScoredDots& scored = card.other_dots.emplace_back(ScoredDots{dot, {}});
+    for (const Claim& claim : options.claims)
+      scored.holds.push_back(judge(claim, record, Reading::printed).holds ? 1 : 0);
+  }
+  return card;
+}
+
 std::string scorecard_csv(const Scorecard& card) {
   std::vector<std::string> columns = {"claim"};
   for (const ScoredStart& s : card.scored) columns.push_back(column_name(s));
@@ -85,6 +106,26 @@ std::string scorecard_csv(const Scorecard& card) {
 }
 
 namespace {
+
+/// How verdicts as printed change with the size of the dots; empty if no other sizes are given.
+std::string dots_text(const Scorecard& card) {
+  if (card.other_dots.empty()) return {};
+  const auto printed = std::ranges::find(card.scored, Reading::printed, &ScoredStart::reading);
+  std::string text = fmt::format(
+      "\nAs printed, with dots of another size than {} of the axis ({}):\n\n"
+      "| dot | claims that hold | gained | lost |\n|---|---|---|---|\n",
+      short_text(card.options.printed.dot, 6), column_title(*printed));
+  for (const ScoredDots& other : card.other_dots) {
+    std::vector<std::string> gained;
+    std::vector<std::string> lost;
+    for (std::size_t k = 0; k < other.holds.size(); ++k)
+      if ((other.holds[k] == 1) != printed->outcomes[k].holds)
+        (other.holds[k] == 1 ? gained : lost).push_back(markdown_cell(card.options.claims[k].name));
+    text += fmt::format("| {} | {} | {} | {} |\n", short_text(other.dot, 6), std::ranges::count(other.holds, 1),
+                        fmt::join(gained, ", "), fmt::join(lost, ", "));
+  }
+  return text;
+}
 
 /// Which claims hold in which reading, with the first of the starts; empty if there is one reading.
 std::string senses_text(const Scorecard& card) {
@@ -149,7 +190,7 @@ std::string scorecard_summary(const Scorecard& card) {
         other += fmt::format("- {}: {}\n", card.options.claims[k].name, measured_text(card.scored[s].outcomes[k]));
     if (!other.empty()) text += fmt::format("\nOther verdicts ({}):\n\n{}", column_title(card.scored[s]), other);
   }
-  return text;
+  return text + dots_text(card);
 }
 
 namespace {

@@ -27,16 +27,27 @@ struct ScoredStart {
   std::vector<ClaimOutcome> outcomes;  ///< of each claim, in order
 };
 
+/// The verdicts as printed with dots of another size, for the first of the starts.
+struct ScoredDots {
+  double dot = 0;
+  std::vector<char> holds;  ///< of each claim
+};
+
 struct Scorecard {
   std::string name;  ///< of the study
   ClaimsOptions options;
   std::vector<ScoredStart> scored;  ///< in the order of the options' readings, and of their starts
+  std::vector<ScoredDots> other_dots;
 
   /// Claims that hold with the start and in the reading that the claims state first, and how many of them hold for any
   /// stage.
   [[nodiscard]] std::size_t holding() const;
   [[nodiscard]] std::size_t holding_inert() const;
 };
+
+/// Judges all claims in all readings.
+/// @param records  by evidence, one for each of the starts
+[[nodiscard]] Scorecard score(std::string name, const ClaimsOptions& options, const std::vector<ClaimRecord>& records);
 
 [[nodiscard]] std::string scorecard_csv(const Scorecard& card);
 [[nodiscard]] std::string scorecard_summary(const Scorecard& card);

@@ -189,6 +189,8 @@ const Table<PrintedDots>& printed_dots_table() {
     t.number("height", &PrintedDots::height, above_up_to(0, 1),
              "Tallest cluster of dots that is one dot to a reader, in parts of the axis [-].");
     t.integer("period_max", &PrintedDots::period_max, between(1, 64), "Clusters that a reader counts [-].");
+    t.numbers("other_dots", &PrintedDots::other_dots, above_up_to(0, 0.5), 0, 100,
+              "Other sizes of a dot, for which the scorecard has the verdicts, too [-].");
     return t;
   }();
   return table;

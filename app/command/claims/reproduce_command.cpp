@@ -62,9 +62,8 @@ int run_part(const Arguments& arguments, const std::filesystem::path& folder, co
 /// Where each sweep was computed.
 using Finished = std::map<std::string, std::unique_ptr<FinishedStudy>, std::less<>>;
 
-claims::Scorecard score(const input::LoadedInput& input, const claims::ClaimsOptions& options,
-                        const Finished& finished) {
-  claims::Scorecard card{input.study.name, options, {}};
+claims::Scorecard scorecard_of(const input::LoadedInput& input, const claims::ClaimsOptions& options,
+                               const Finished& finished) {
   std::vector<claims::ClaimRecord> records;
   for (const studies::Start start : options.starts) {
     claims::ClaimRecord& record = records.emplace_back();
@@ -72,15 +71,7 @@ claims::Scorecard score(const input::LoadedInput& input, const claims::ClaimsOpt
       record[sweep.name] =
           claims::claim_series(finished.find(folder_name(sweep, start))->second->points(), options.recording);
   }
-  for (const claims::Reading reading : options.readings)
-    for (std::size_t k = 0; k < records.size(); ++k) {
-      const claims::ClaimRecord record = claims::read_as(reading, records[k], options);
-      claims::ScoredStart scored{options.starts[k], reading, {}};
-      for (const claims::Claim& claim : options.claims)
-        scored.outcomes.push_back(claims::judge(claim, record, reading));
-      card.scored.push_back(std::move(scored));
-    }
-  return card;
+  return claims::score(input.study.name, options, records);
 }
 
 std::filesystem::path recorded_verdicts(const Arguments& arguments) {
@@ -138,7 +129,7 @@ int reproduce_command(const Arguments& given) {
       const std::string name = folder_name(sweep, start);
       finished[name] = std::make_unique<FinishedStudy>(sweeps / name);
     }
-  const claims::Scorecard card = score(input, options, finished);
+  const claims::Scorecard card = scorecard_of(input, options, finished);
   const std::string summary = claims::scorecard_summary(card);
   write_file_atomically(folder.file("scorecard.csv"), claims::scorecard_csv(card));
   write_file_atomically(folder.file("scorecard.md"), summary);
