@@ -119,7 +119,7 @@ std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const
     if (is_printed && recorded < 2 * printed.period_max)
       problems.refuse(place, "is " + std::to_string(recorded) +
                                  ", must be >= 2 printed/period_max = " + std::to_string(2 * printed.period_max) +
-                                 ": fewer dots of a chaotic response look like a period");
+                                 ": fewer dots of a chaotic response are a period to a reader");
   };
   check_recorded(recording.recorded_periods, recording.classification_periods, is_scored(Reading::printed),
                  "/recorded_periods");

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -94,6 +96,36 @@ TEST(PrintedDots, LackLessTheNearerTheyComeToARegime) {
     EXPECT_LT(lack, before) << apart;
     before = lack;
   }
+}
+
+/// Columns that were drawn at print size and labelled by eye before the rule was applied.
+TEST(PrintedDots, AreReadAsByEye) {
+  std::ifstream file("validation/tang2020/labels.csv");
+  std::string line;
+  std::getline(file, line);
+  int columns = 0;
+  int same = 0;
+  int same_kind = 0;
+  while (std::getline(file, line)) {
+    std::istringstream cells(line);
+    std::string number, label, text;
+    std::getline(cells, number, ',');
+    std::getline(cells, label, ',');
+    for (const int unused : {0, 1, 2}) {
+      (void)unused;
+      std::getline(cells, text, ',');
+    }
+    std::vector<double> points;
+    for (double x = 0.0; cells >> x;) points.push_back(x);
+    ASSERT_FALSE(points.empty()) << line;
+    const int period = DotColumn(points, 1.0, PrintedDots{}).period();
+    ++columns;
+    same += (period == 0 ? "cloud" : std::to_string(period)) == label ? 1 : 0;
+    same_kind += (period == 0) == (label == "cloud") ? 1 : 0;
+  }
+  EXPECT_EQ(columns, 60);
+  EXPECT_GE(same, 57);
+  EXPECT_EQ(same_kind, 60);
 }
 
 /// Three points whose sections have these values of delta_sp,1; of delta_rp,1 twice as much.
