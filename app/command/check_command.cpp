@@ -52,6 +52,8 @@ void print_operation(const input::LoadedInput& input) {
   };
   print_message("speed: {}\n", words(from));
   if (to != from) print_message("    to {}\n", words(to));
+  if (const std::string drive = reports::drive_words(input.study.stage); !drive.empty())
+    print_message("drive: {}\n", drive);
   // The load may go with the speed.
   const std::string error = reports::error_words(input.study.stage, from);
   print_message("{}\n", error);

@@ -29,7 +29,7 @@ Speeds speeds(const Stage& stage, double mesh_frequency) {
 Torques torques(const Stage& stage, double mesh_frequency) {
   const double ratio = teeth(stage.ring.teeth, "ring") / teeth(stage.sun.teeth, "sun");
   const double drive = stage.load.power_kW ? *stage.load.power_kW * 1e3 / speeds(stage, mesh_frequency).sun
-                                           : stage.load.torque_Nm.value();
+                                           : std::abs(stage.load.torque_Nm.value());
   if (stage.boundary == Boundary::star) return {drive, ratio * drive, 0.0};
   return {drive, 0.0, (1.0 + ratio) * drive};
 }

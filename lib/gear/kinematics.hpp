@@ -19,7 +19,8 @@ namespace epicyclic::gear {
 /// 1 rad/s [rpm].
 inline constexpr double rpm = 30.0 / std::numbers::pi;
 
-/// Speeds at a mesh frequency omega_m [rad/s].
+/// Magnitudes of the speeds at a mesh frequency omega_m [rad/s]. They are against the torque on the sun if the stage
+/// runs backward.
 struct Speeds {
   double sun;      ///< omega_s [rad/s]
   double carrier;  ///< omega_c [rad/s]
@@ -27,7 +28,8 @@ struct Speeds {
 
 [[nodiscard]] Speeds speeds(const Stage& stage, double mesh_frequency);
 
-/// Torques on the members; signs as in Eqs. (17)-(20): T_D and T_r drive u_s and u_r forward, T_c holds u_c back.
+/// Torques on the members, positive in the direction of the sun's; signs as in Eqs. (17)-(20): T_D and T_r drive u_s
+/// and u_r forward, T_c holds u_c back.
 struct Torques {
   double sun;      ///< T_D [N m]
   double ring;     ///< T_r [N m], `star` only

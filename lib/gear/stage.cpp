@@ -223,6 +223,17 @@ void check_torsion(Problems& out, const Stage& s) {
   }
 }
 
+/// Power enters through the sun or through the other member that is not held.
+void check_driver(Problems& out, const Stage& s) {
+  if (s.driver == Driver::sun) return;
+  const bool carrier = s.driver == Driver::carrier;
+  if (s.boundary == Boundary::as_printed)
+    out.add("/driver", "must be sun with boundary as_printed, whose equations have no other drive");
+  else if (carrier != (s.boundary == Boundary::fixed_ring))
+    out.add("/driver", carrier ? "must be sun or ring with boundary star, where the carrier is held"
+                               : "must be sun or carrier with boundary fixed_ring, where the ring is held");
+}
+
 void check_compatibility(Problems& out, const Stage& s) {
   if (!s.sun.teeth || !s.ring.teeth || !s.sun.base_radius_mm || !s.ring.base_radius_mm) return;
   const double radii = *s.ring.base_radius_mm / *s.sun.base_radius_mm;
@@ -248,6 +259,13 @@ std::vector<double> Stage::planet_angles_deg() const {
   if (!angles_deg.empty()) return angles_deg;
   std::vector<double> angles;
   for (int i = 0; i < planet_count; ++i) angles.push_back(360.0 * i / planet_count);
+  return angles;
+}
+
+std::vector<double> Stage::angles_along_torque_deg() const {
+  std::vector<double> angles = planet_angles_deg();
+  if (load.torque_Nm.value_or(1.0) < 0.0)
+    for (double& angle : angles) angle = -angle;
   return angles;
 }
 
@@ -302,6 +320,7 @@ std::vector<std::string> problems_for_dynamics(const Stage& s) {
   if (!(s.planet.bearing_N_per_m > 0.0))
     out.add("/lumped/planet/bearing_N_per_m", "must be positive (", s.planet.bearing_N_per_m, ")");
   check_torsion(out, s);
+  check_driver(out, s);
   check_compatibility(out, s);
   const struct {
     const char* pointer;
@@ -325,6 +344,9 @@ std::vector<std::string> problems_for_dynamics(const Stage& s) {
     out.add("/lumped/sun/bearing/ball_diameter_mm", "is missing; the Palmgren laws need it");
   if (s.load.power_kW.has_value() == s.load.torque_Nm.has_value())
     out.add("/load", s.load.power_kW ? "power_kW and torque_Nm exclude each other" : "needs power_kW or torque_Nm");
+  constexpr double least_torque = 1e-9;
+  if (s.load.torque_Nm && !(std::abs(*s.load.torque_Nm) >= least_torque))
+    out.add("/load/torque_Nm", "must be at least 1e-9 N m, of either sign (", *s.load.torque_Nm, ")");
   return out.take();
 }
 

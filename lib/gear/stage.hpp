@@ -40,6 +40,9 @@ enum class Boundary {
   star,        ///< carrier grounded through k_cu, ring is the free output
 };
 
+/// The member through which power enters the stage.
+enum class Driver { sun, carrier, ring };
+
 /// Viscous damping of a support: a ratio, c = 2 zeta sqrt(k m), or a coefficient.
 struct SupportDamping {
   std::optional<double> ratio;                 ///< zeta [-]
@@ -170,12 +173,13 @@ struct Mesh {
 /// Load of the stage: exactly one of the two.
 struct Load {
   std::optional<double> power_kW;   ///< T_D = P / omega_s: falls with speed
-  std::optional<double> torque_Nm;  ///< T_D on the sun, the same at every speed
+  std::optional<double> torque_Nm;  ///< T_D on the sun, the same at every speed; its sign decides the loaded flanks
 };
 
 struct Stage {
   std::string name;
   Boundary boundary = Boundary::fixed_ring;
+  Driver driver = Driver::sun;
   int planet_count = 3;
   std::vector<double> angles_deg;            ///< phi_i; empty: equally spaced from 0
   std::optional<double> centre_distance_mm;  ///< r_c
@@ -189,6 +193,12 @@ struct Stage {
 
   /// phi_i [deg], i = 0 .. N-1: as given, or equally spaced from 0.
   [[nodiscard]] std::vector<double> planet_angles_deg() const;
+
+  /// The same in the direction of the torque on the sun, in which the model measures all angles and rotations [deg].
+  [[nodiscard]] std::vector<double> angles_along_torque_deg() const;
+
+  /// Does the sun turn against its torque, so that the meshes run backward [gear/reversal.hpp]?
+  [[nodiscard]] bool runs_backward() const { return driver != Driver::sun; }
 };
 
 /// The angle next to `angle_deg` at which a planet fits the teeth of sun and ring, if one fits them at `first_deg`:

@@ -12,10 +12,11 @@ namespace epicyclic::input {
 namespace {
 
 /// Pointer of a key, and the value of the behaviour before the key existed, as JSON.
-constexpr std::array<std::pair<const char*, const char*>, 3> later_keys = {
+constexpr std::array<std::pair<const char*, const char*>, 4> later_keys = {
     {{"/model/centrifugal", "\"left_out\""},
      {"/integrator/max_step_periods", "0.0"},
-     {"/stage/catalogue/error_amplitude", "\"single_pitch\""}}};
+     {"/stage/catalogue/error_amplitude", "\"single_pitch\""},
+     {"/stage/driver", "\"sun\""}}};
 
 }  // namespace
 

@@ -377,7 +377,8 @@ const Table<gear::Load>& load_table() {
     Table<gear::Load> t("load", "Load of the stage, on the sun: a power or a torque.");
     t.number("power_kW", &gear::Load::power_kW, between(1e-9, 1e6),
              "Power [kW]: the torque is power over the sun's speed, and falls with it.");
-    t.number("torque_Nm", &gear::Load::torque_Nm, between(1e-9, 1e9), "Torque on the sun [N m], at every speed.");
+    t.number("torque_Nm", &gear::Load::torque_Nm, between(-1e9, 1e9),
+             "Torque on the sun [N m], at every speed. A negative one loads the other flanks: the stage is mirrored.");
     t.rule(KeyRule::Kind::exactly_one, {"power_kW", "torque_Nm"});
     return t;
   }();
@@ -527,6 +528,11 @@ const Table<Stage>& stage_table() {
                                                                  {"star", gear::Boundary::star}},
              "Member that is held: the ring, the carrier (star), or neither, as in the printed equations of Tang et "
              "al. (`as_printed`).");
+    t.choice("driver", &Stage::driver,
+             std::vector<std::pair<std::string, gear::Driver>>{
+                 {"sun", gear::Driver::sun}, {"carrier", gear::Driver::carrier}, {"ring", gear::Driver::ring}},
+             "Member through which power enters. With carrier or ring the stage increases the speed: the sun turns "
+             "against its torque.");
     t.object("planets", itself, planets_table()).required();
     t.object("load", &Stage::load, load_table());
     t.object("catalogue", present(&Stage::catalogue), catalogue_table());

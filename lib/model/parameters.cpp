@@ -11,6 +11,7 @@
 #include "gear/ehl_friction.hpp"
 #include "gear/friction_path.hpp"
 #include "gear/kinematics.hpp"
+#include "gear/reversal.hpp"
 
 namespace epicyclic::model {
 
@@ -59,29 +60,33 @@ gear::EhlFriction halved(gear::EhlFriction e) {
 /// @param mesh_cycles  mesh phase of a planet per revolution of its angle: -z_s or +z_r
 template <std::size_t N>
 void fill_mesh(MeshParameters<double, N>& m, const gear::Mesh& mesh, const std::vector<double>& angles_deg,
-               int mesh_cycles, double lead, double effective_mass, const Scales& scales, bool halve) {
+               int mesh_cycles, double lead, double effective_mass, const Scales& scales, bool halve, bool backward) {
   m.half_gap = scales.displacement(mesh.backlash_half_um * 1e-6);
   m.stiffness = scales.stiffness(mesh.stiffness_N_per_m);
   m.damping =
       scales.damping(2.0 * mesh.damping_ratio.value_or(0.0) * std::sqrt(mesh.stiffness_N_per_m * effective_mass));
-  if (mesh.stiffness_curve)
+  if (mesh.stiffness_curve) {
+    const gear::StiffnessCurve curve = halve ? halved(*mesh.stiffness_curve) : *mesh.stiffness_curve;
     m.stiffness_curve = std::make_shared<PeriodicTrack<1>>(
-        stiffness_track(halve ? halved(*mesh.stiffness_curve) : *mesh.stiffness_curve, 1.0 / scales.stiffness(1.0)));
+        stiffness_track(backward ? gear::reversed(curve) : curve, 1.0 / scales.stiffness(1.0)));
+  }
+  const double along = backward ? -1.0 : 1.0;  // of the mesh's position with the phase s
   m.harmonics = std::max(mesh.stiffness_cos_N_per_m.size(), mesh.stiffness_sin_N_per_m.size());
   m.stiffness_cos.resize(m.harmonics);
   m.stiffness_sin.resize(m.harmonics);
   for (std::size_t i = 0; i < N; ++i) {
-    m.phase_cycles[i] = wrapped(mesh_cycles * (angles_deg[i] - angles_deg[0]) / 360.0 + lead);
+    m.phase_cycles[i] = wrapped(along * (mesh_cycles * (angles_deg[i] - angles_deg[0]) / 360.0 + lead));
     for (std::size_t h = 0; h < m.harmonics; ++h) {
-      // A cos h(s + psi) + B sin h(s + psi), psi = 2 pi phase_cycles
+      // A cos h(s + psi) + B sin h(s + psi), psi = 2 pi phase_cycles; backward - B [G-rev]
       const double c = h < mesh.stiffness_cos_N_per_m.size() ? scales.stiffness(mesh.stiffness_cos_N_per_m[h]) : 0.0;
-      const double s = h < mesh.stiffness_sin_N_per_m.size() ? scales.stiffness(mesh.stiffness_sin_N_per_m[h]) : 0.0;
+      const double s =
+          h < mesh.stiffness_sin_N_per_m.size() ? along * scales.stiffness(mesh.stiffness_sin_N_per_m[h]) : 0.0;
       const double psi = static_cast<double>(h + 1) * two_pi * m.phase_cycles[i];
       m.stiffness_cos[h][i] = c * std::cos(psi) + s * std::sin(psi);
       m.stiffness_sin[h][i] = s * std::cos(psi) - c * std::sin(psi);
     }
-    const double amplitude = scales.displacement(per_planet(mesh.error_amplitude_um, i) * 1e-6);
-    const double theta = two_pi * m.phase_cycles[i] + per_planet(mesh.error_phase_deg, i) * radian;
+    const double amplitude = along * scales.displacement(per_planet(mesh.error_amplitude_um, i) * 1e-6);
+    const double theta = two_pi * m.phase_cycles[i] + along * per_planet(mesh.error_phase_deg, i) * radian;
     m.error_cos[i] = amplitude * std::sin(theta);
     m.error_sin[i] = amplitude * std::cos(theta);
   }
@@ -94,10 +99,9 @@ void fill_mesh(MeshParameters<double, N>& m, const gear::Mesh& mesh, const std::
 }
 
 /// Of lubricated contact.
-/// @param like  with the grids to take; may be null
+/// @param grids  to take; as the error requires if there are none
 gear::FrictionTable lubricated_table(const gear::EhlFriction& e, const gear::LineOfAction& line,
-                                     const gear::MeshLoad& load, const FrictionTrack* like, bool halve) {
-  std::vector<IntervalGrid> grids = like != nullptr ? like->grids() : std::vector<IntervalGrid>{};
+                                     const gear::MeshLoad& load, std::vector<IntervalGrid> grids, bool halve) {
   if (!halve) return gear::friction_table(e, line, load, grids);
   if (grids.empty()) grids = gear::friction_table(e, line, load).grids;
   for (IntervalGrid& g : grids)
@@ -112,11 +116,17 @@ std::shared_ptr<const FrictionTrack> make_track(const gear::Friction& friction, 
                                                 const gear::MeshLoad& load, const FrictionTrack* like, bool halve) {
   if (!friction.any()) return nullptr;
   const gear::LineOfAction line = line_of(stage);
+  const bool backward = stage.runs_backward();
   const auto track = [&](const gear::FrictionTable& table, double by) {
-    return std::make_shared<FrictionTrack>(table, by, line.base_radius_1_mm, line.base_radius_2_mm);
+    return std::make_shared<FrictionTrack>(backward ? gear::reversed(table) : table, backward ? -by : by,
+                                           line.base_radius_1_mm, line.base_radius_2_mm);
   };
   if (friction.table) return track(*friction.table, lead);
-  if (friction.ehl) return track(lubricated_table(*friction.ehl, line, load, like, halve), 0.0);
+  if (friction.ehl) {
+    std::vector<IntervalGrid> grids = like != nullptr ? like->grids() : std::vector<IntervalGrid>{};
+    if (backward) grids = gear::reversed(std::move(grids));
+    return track(lubricated_table(*friction.ehl, line, load, std::move(grids), halve), 0.0);
+  }
   return track(gear::friction_table(*friction.coefficient, line), 0.0);
 }
 
@@ -261,15 +271,16 @@ void fill_loads(Parameters<double, N>& p, const gear::Stage& stage, const Scales
 template <std::size_t N>
 void fill_meshes(Parameters<double, N>& p, const gear::Stage& stage, const Scales& scales, double mesh_frequency,
                  bool halved_tables, const Parameters<double, N>* like) {
-  const std::vector<double> angles = stage.planet_angles_deg();
+  const std::vector<double> angles = stage.angles_along_torque_deg();
+  const bool backward = stage.runs_backward();
   const auto reduced = [](double a, double b) { return 1.0 / (1.0 / a + 1.0 / b); };
   const double m_s = stage.sun.inertia_over_r2_kg;
   const double m_p = stage.planet.inertia_over_r2_kg;
   const double m_r = stage.ring.inertia_over_r2_kg;
   fill_mesh(p.sun_planet, stage.sun_planet_mesh, angles, -*stage.sun.teeth, 0.0, reduced(m_s, m_p), scales,
-            halved_tables);
+            halved_tables, backward);
   fill_mesh(p.ring_planet, stage.ring_planet_mesh, angles, *stage.ring.teeth, stage.ring_mesh_lead_1, reduced(m_p, m_r),
-            scales, halved_tables);
+            scales, halved_tables, backward);
   const gear::MeshLoad load = gear::mean_mesh_load(stage, mesh_frequency);
   const auto friction = [&](const gear::Friction& f, auto line_of, double lead,
                             MeshParameters<double, N> Parameters<double, N>::*mesh) {
@@ -286,7 +297,7 @@ void fill_meshes(Parameters<double, N>& p, const gear::Stage& stage, const Scale
 template <std::size_t N>
 Parameters<double, N> make_geometry(const gear::Stage& stage) {
   const gear::PressureAngles alpha = gear::pressure_angles(stage);
-  const std::vector<double> angles = stage.planet_angles_deg();
+  const std::vector<double> angles = stage.angles_along_torque_deg();
   Parameters<double, N> p;
   p.cos_alpha_sp = std::cos(alpha.sun_planet);
   p.cos_alpha_rp = std::cos(alpha.ring_planet);
@@ -316,7 +327,8 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
   make_segments(p);
 
   const GyroscopicForm form = gyroscopic_form(stage.boundary, options.gyroscopic);
-  p.carrier_speed = form.on ? gear::speeds(stage, mesh_frequency).carrier / scales.omega_sn : 0.0;
+  const double direction = stage.runs_backward() ? -1.0 : 1.0;
+  p.carrier_speed = form.on ? direction * gear::speeds(stage, mesh_frequency).carrier / scales.omega_sn : 0.0;
   p.centrifugal = options.centrifugal == Centrifugal::included
                       ? scales.force(gear::planet_centrifugal_force(stage, mesh_frequency))
                       : 0.0;

@@ -349,6 +349,8 @@ GearOutput gear_words(const input::LoadedInput& input) {
     if (moves) out.verdicts.insert(out.verdicts.begin(), operation_verdict(stage, input.study.mesh_frequency_ratio));
     for (const std::string& line : input::stiffness_notes(input)) out.verdicts.push_back(line + ".");
   }
+  if (const std::string drive = drive_words(stage); moves && !drive.empty())
+    out.verdicts.push_back("Drive: " + drive + ".");
   if (moves) out.verdicts.push_back("The " + error_words(stage, input.study.mesh_frequency_ratio) + ".");
   if (!ranges.empty()) out.verdicts.push_back(range_words(ranges));
   return out;

@@ -374,6 +374,23 @@ std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ra
       stage.sun_planet_mesh.stiffness_N_per_m / giga, stage.ring_planet_mesh.stiffness_N_per_m / giga);
 }
 
+std::string drive_words(const gear::Stage& stage) {
+  const bool negative = stage.load.torque_Nm.value_or(1.0) < 0.0;
+  if (!stage.runs_backward() && !negative) return {};
+  const bool is_star = stage.boundary == gear::Boundary::star;
+  const bool by_carrier = stage.driver == gear::Driver::carrier;
+  const bool by_sun = stage.driver == gear::Driver::sun;
+  return fmt::format(
+      "the {} drives, the {} is driven; the sun turns {} its torque; loaded flanks: those of {} torque on the sun",
+      by_sun       ? "sun"
+      : by_carrier ? "carrier"
+                   : "ring",
+      !by_sun   ? "sun"
+      : is_star ? "ring"
+                : "carrier",
+      stage.runs_backward() ? "against" : "with", negative ? "negative" : "positive");
+}
+
 std::string error_words(const gear::Stage& stage, double mesh_frequency_ratio) {
   const gear::MeshLoad load = gear::mean_mesh_load(stage, mesh_frequency_ratio * model::scales_of(stage).omega_sn);
   const auto of = [&](const char* name, const gear::Mesh& mesh) {

@@ -65,6 +65,9 @@ struct GearPage {
 /// @param stage  passes gear::problems_for_dynamics()
 [[nodiscard]] std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ratio);
 
+/// Who drives whom, and which flanks are loaded; empty if the sun drives with a positive torque.
+[[nodiscard]] std::string drive_words(const gear::Stage& stage);
+
 /// Amplitudes of the transmission error against the static deflection of both meshes at an operating point.
 /// @param stage  passes gear::problems_for_dynamics()
 [[nodiscard]] std::string error_words(const gear::Stage& stage, double mesh_frequency_ratio);
