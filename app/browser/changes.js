@@ -62,7 +62,7 @@ function typeOf(change, diagram, known) {
   if (between.length > 0)
     return between.map(({ kind, branch }) => `${specialName(kind)[1]}, branch ${branch}`).join('; ');
   if (!known || !known.found) return 'not known';
-  if (known.unstable === 0) return 'change to another attractor';
+  if (known.unstable === 0) return 'none: the orbit stays stable';
   if (!known.oneKind) return 'several multipliers';
   if (!isReal(known.there)) return 'Neimark-Sacker (torus)';
   return known.there[0] < 0 ? 'period doubling (flip)' : 'fold or branch point';

@@ -3,8 +3,8 @@
 //
 // Newton's method finds the orbit of the first value again, and from it the orbit at the second value. If that one
 // exists and is unstable, the multipliers outside the unit circle name the bifurcation between the two values. If it is
-// stable, the sweep changed to another attractor. If no orbit is found near the first one, a fold, a grazing of a
-// contact or a step of the parameter that is too large for Newton's method are possible: nothing is proved.
+// stable, the sweep changed to another attractor, or its other point has no regime. If no orbit is found near the first
+// one, a fold, a grazing of a contact or a step too large for Newton's method are possible: nothing is proved.
 #pragma once
 
 #include <complex>
