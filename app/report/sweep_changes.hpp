@@ -8,8 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "integrate/options.hpp"
-#include "model/dynamic_model.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::app {
