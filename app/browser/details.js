@@ -109,7 +109,7 @@ export function allValues(table, row) {
 export function smallFigure(caption, options) {
   const host = element('figure', { class: 'small' });
   const view = new View(options.xRange());
-  const panel = new Panel({ host, view, height: () => 240, ...options });
+  const panel = new Panel({ host, view, height: () => (innerHeight < 900 ? 190 : 240), ...options });
   host.append(element('figcaption', {}, rich(caption)));
   return { host, panel, view };
 }
@@ -374,6 +374,12 @@ export function commandLine(text) {
   return element('p', { class: 'command' }, code, ' ', button);
 }
 
+/// Names what the bar above the panel leads to.
+function part(name, node) {
+  node.dataset.part = name;
+  return node;
+}
+
 export function pointDetails(diagram, line, row) {
   const { study, table } = line;
   const index = table.numbers('point')[row];
@@ -398,30 +404,34 @@ export function pointDetails(diagram, line, row) {
       speedText(table, row) ? `; ${speedText(table, row)}.` : '.',
     ),
     tableOf(null, facts),
+    torusNote(table, row),
   );
   const section = study.table('section');
   const starts = study.table('section_starts')?.numbers('start');
   if (section && starts) {
     const figure = sectionFigure(section, starts[row], starts[row + 1], colour);
-    if (figure) made.append(figure);
+    if (figure) made.append(part('Section', figure));
   }
   const history = storedHistory(study, row);
   const place = element('div', { class: 'history' }, history ? historyFigures(history, colour) : null);
-  made.append(place);
+  made.append(part('History', place));
   if (study.live) made.append(longerHistory(study, index, place, colour, !history));
   const spectrum = spectrumFigure(study, row, colour);
-  if (spectrum) made.append(spectrum);
+  if (spectrum) made.append(part('Spectrum', spectrum));
   const meshes = meshTables(table, row);
-  if (meshes) made.append(meshes);
+  if (meshes) made.append(part('Meshes', meshes));
   made.append(
-    element('h4', { text: 'To compute more at this point' }),
+    part('Command', element('h4', { text: 'To compute more at this point' })),
     element('p', { text: 'Long time histories, all forces, multipliers and exponents:' }),
     commandLine(`epicyclic run --from ${shellWord(`${study.folder}:${index}`)} -o ${shellWord(`point_${index}`)}`),
-    element(
-      'details',
-      {},
-      element('summary', { text: 'All values of this point' }),
-      element('div', { class: 'scroll' }, allValues(table, row)),
+    part(
+      'All values',
+      element(
+        'details',
+        {},
+        element('summary', { text: 'All values of this point' }),
+        element('div', { class: 'scroll' }, allValues(table, row)),
+      ),
     ),
   );
   return made;
@@ -453,23 +463,26 @@ export function orbitDetails(diagram, line, row) {
   const starts = study.table('section_starts')?.numbers('start');
   if (section && starts) {
     const figure = sectionFigure(section, starts[row], starts[row + 1], () => diagram.colour(line, row));
-    if (figure) made.append(figure);
+    if (figure) made.append(part('Section', figure));
   }
   const colour = () => diagram.colour(line, row);
   const multipliers = multiplierFigure(study, row, colour);
-  if (multipliers) made.append(multipliers);
+  if (multipliers) made.append(part('Multipliers', multipliers));
   const history = storedHistory(study, row);
-  if (history) made.append(...historyFigures(history, colour));
+  if (history) made.append(part('History', element('div', {}, historyFigures(history, colour))));
   if (history && !stable)
     made.append(element('p', { class: 'hint', text: 'The orbit is unstable: errors grow along this history.' }));
   const meshes = meshTables(table, row);
-  if (meshes) made.append(meshes);
+  if (meshes) made.append(part('Meshes', meshes));
   made.append(
-    element(
-      'details',
-      {},
-      element('summary', { text: 'All values of this orbit' }),
-      element('div', { class: 'scroll' }, allValues(table, row)),
+    part(
+      'All values',
+      element(
+        'details',
+        {},
+        element('summary', { text: 'All values of this orbit' }),
+        element('div', { class: 'scroll' }, allValues(table, row)),
+      ),
     ),
   );
   return made;
@@ -560,13 +573,83 @@ export function multipliersFigure(re, im, colour, errors) {
   return figure;
 }
 
+/// Parts of a long panel, to go to each; they stay above it while it is scrolled. What is left below is announced at its
+/// lower edge.
+function partsOf(place, made) {
+  const parts = [...made.querySelectorAll('[data-part]')];
+  const go = (part) => {
+    if (part.tagName === 'DETAILS') part.open = true;
+    if (place.scrollHeight > place.clientHeight) place.scrollTop = part.offsetTop - bar.offsetHeight - 6;
+    else part.scrollIntoView();
+  };
+  const bar = element(
+    'nav',
+    { class: 'parts', 'aria-label': 'Parts of this panel' },
+    [made.firstChild, ...parts].map((part) =>
+      element('button', {
+        type: 'button',
+        class: 'link',
+        text: part.dataset.part ?? 'Top',
+        onclick: () => go(part),
+      }),
+    ),
+  );
+  const below = element('button', {
+    type: 'button',
+    class: 'below',
+    text: 'More below ▾',
+    onclick: () => place.scrollBy({ top: 0.8 * place.clientHeight }),
+  });
+  return { bar: parts.length > 0 ? bar : null, below };
+}
+
 /// Puts what was chosen beside the figure. Screen readers say its heading and its first line, and not all of it.
 export function showDetails(place, made) {
   const said = ['h3', 'p'].map((tag) => made.querySelector(tag)?.textContent ?? '').join('. ');
   const status = place.querySelector('[role=status]') ?? element('p', { role: 'status', class: 'unseen' });
-  place.replaceChildren(status, made);
+  const { bar, below } = partsOf(place, made);
+  place.replaceChildren(...[status, bar, made, below].filter(Boolean));
+  place.scrollTop = 0;
+  const update = () => (below.hidden = place.scrollTop + place.clientHeight > place.scrollHeight - 24);
+  place.onscroll = update;
+  fitted.add(place);
+  fit();
+  growth.get(place)?.disconnect();
+  growth.set(place, new ResizeObserver(update));
+  for (const node of [place, made]) growth.get(place).observe(node);
   releasePanels();
   status.textContent = said;
+}
+
+const growth = new WeakMap(); // observers of panels
+
+/// Beside the figure a panel ends at the lower edge of the window, wherever it begins.
+const fitted = new Set();
+function fit() {
+  for (const place of fitted) {
+    if (!place.isConnected) fitted.delete(place);
+    const beside = innerWidth >= 1280 && !place.classList.contains('wide');
+    const height = Math.max(320, innerHeight - Math.max(8, place.getBoundingClientRect().top) - 8);
+    place.style.maxHeight = beside ? `${Math.round(height)}px` : '';
+  }
+}
+for (const event of ['scroll', 'resize']) addEventListener(event, fit, { passive: true });
+addEventListener('beforeprint', () => fitted.forEach((place) => (place.style.maxHeight = '')));
+addEventListener('afterprint', fit);
+
+/// What an interval of the exponent that excludes 0 means for a torus; null if it does not.
+function torusNote(table, row) {
+  if (!table.has('regime') || table.word('regime', row) !== 'quasiperiodic') return null;
+  const [value, error] = ['lyapunov_max', 'lyapunov_max_error'].map((name) => table.numbers(name)[row]);
+  if (!(Math.abs(value) > error)) return null;
+  return element(
+    'p',
+    { class: 'hint torus' },
+    rich(
+      'On a torus λ_1 is 0, but a finite average approaches it slowly: the 95 % intervals of 27 of 140 tori exclude 0 ',
+    ),
+    '(docs/reference/regimes.md).',
+  );
 }
 
 /// What stands first of a point: evidence, exponent, multiplier, errors.
@@ -596,6 +679,7 @@ export function rowDetails(table, row, title, lead) {
     element('h3', { text: title }),
     lead ? element('p', { text: lead }) : null,
     facts.length > 0 ? tableOf(null, facts) : null,
+    torusNote(table, row),
     meshes,
     meshes ? element('details', {}, element('summary', { text: 'All values' }), all) : all,
   );

@@ -4,6 +4,8 @@ import { Panel, Raster, View, dot, rangeOf, strokeLine } from './panel.js';
 import { theme } from './theme.js';
 import { axisLabel, capital, element, factorOf, lengthUnit, number, symbol, unitText, withError } from './words.js';
 import { orbitDetails, pointDetails, showDetails, specialDetails } from './details.js';
+import { changesTable, specialTable } from './changes.js';
+import { quantityChooser } from './choice.js';
 
 export const classNames = [
   'period 1',
@@ -419,7 +421,8 @@ export class Diagram {
   drawSpecial(context, place, point, labels) {
     for (const [x, y] of this.placesOf(point)) {
       const [px, py] = [place.x(x), place.y(y)];
-      dot(context, px, py, 4 * place.ratio, theme().paper, theme().ink);
+      const isChosen = point === this.chosenSpecial;
+      dot(context, px, py, (isChosen ? 6 : 4) * place.ratio, isChosen ? theme().mark : theme().paper, theme().ink);
       const text = specialName(point.kind)[0];
       const [wide, tall] = [20 * place.ratio, 13 * place.ratio];
       if (labels.some(([a, b]) => Math.abs(a - px) < wide && Math.abs(b - py) < tall)) continue;
@@ -550,8 +553,12 @@ export class Diagram {
 
   choose(found) {
     if (!found) return;
+    this.chosenSpecial = found.special ?? null;
     if (found.special) {
+      this.chosen = null;
       showDetails(this.details, specialDetails(this, found.special));
+      const place = this.placesOf(found.special)[0];
+      if (place) this.bringIntoView(place[0]);
       return;
     }
     this.chosen = { line: found.line, row: found.row };
@@ -560,13 +567,26 @@ export class Diagram {
       this.details,
       line.branch === undefined ? pointDetails(this, line, row) : orbitDetails(this, line, row),
     );
-    const x = this.x(line)[row];
+    this.bringIntoView(this.x(line)[row]);
+  }
+
+  bringIntoView(x) {
     if (x < this.view.x[0] || x > this.view.x[1]) {
       const half = 0.5 * (this.view.x[1] - this.view.x[0]);
       this.view.show([x - half, x + half]);
     } else {
       this.redraw();
     }
+  }
+
+  /// Chooses what a list below the diagram names, and shows it.
+  select(found) {
+    const line =
+      found.line ??
+      this.lines.find(({ study, branch }) => study === found.special.study && branch === found.special.branch);
+    if (line && !line.shown) this.toggles.get(line).click();
+    this.choose(found);
+    (innerWidth < 1280 ? this.details : this.figure).scrollIntoView({ block: 'nearest' });
   }
 
   /// The point of a shown line with the nearest abscissa; the chosen line comes before others that are as near.
@@ -647,10 +667,11 @@ export class Diagram {
       element(
         'div',
         { class: 'columns' },
-        element('div', { class: 'main' }, figure, this.legend(), this.help()),
+        element('div', { class: 'main' }, figure, this.legend(), this.help(), changesTable(this), specialTable(this)),
         this.details,
       ),
     );
+    this.figure = figure;
     const live = this.studies.find(({ kind }) => kind === 'sweep')?.live;
     const panel = (options) =>
       new Panel({
@@ -710,33 +731,22 @@ export class Diagram {
   }
 
   toolbar() {
-    const option = (column, group) => element('option', { value: `${group}:${column.name}`, text: optionText(column) });
     const { sections, curves } = this.quantities;
-    const choice = element(
-      'select',
-      {
-        id: 'quantity',
-        onchange: () => {
-          const [group, name] = choice.value.split(/:(.*)/s);
-          this.bySection = group === 'section';
-          this.quantity = (this.bySection ? sections : curves).find((column) => column.name === name);
-          this.main.relabel();
-        },
+    const value = (group, column) => `${group}:${column.name}`;
+    const options = [
+      ...sections.map((column) => ({ column, value: value('section', column), group: 'Poincaré points' })),
+      ...curves.map((column) => ({ column, value: value('curve', column) })),
+    ];
+    const chooser = quantityChooser(
+      options,
+      this.quantity && value(this.bySection ? 'section' : 'curve', this.quantity),
+      ({ column, group }) => {
+        this.bySection = group === 'Poincaré points';
+        this.quantity = column;
+        this.main.relabel();
       },
-      sections.length
-        ? element(
-            'optgroup',
-            { label: 'Poincaré points' },
-            sections.map((column) => option(column, 'section')),
-          )
-        : null,
-      element(
-        'optgroup',
-        { label: 'Response curves' },
-        curves.map((column) => option(column, 'curve')),
-      ),
+      { id: 'quantity' },
     );
-    if (this.quantity) choice.value = `${this.bySection ? 'section' : 'curve'}:${this.quantity.name}`;
     const axes = element(
       'select',
       {
@@ -779,6 +789,7 @@ export class Diagram {
       element('button', { type: 'button', text, title: label, 'aria-label': label, onclick: action });
     const field = (text, control) => element('label', {}, element('span', { text }), control);
     const several = this.studies.length > 1;
+    this.toggles = new Map();
     const toggles = this.lines.map((line) => {
       const box = element('input', {
         type: 'checkbox',
@@ -789,6 +800,7 @@ export class Diagram {
           this.redraw();
         },
       });
+      this.toggles.set(line, box);
       const swatch =
         line.branch === undefined ? null : element('span', { class: `swatch series${this.seriesOf(line)}` });
       return element(
@@ -802,7 +814,8 @@ export class Diagram {
     return element(
       'div',
       { class: 'toolbar' },
-      field('Ordinate', choice),
+      field('Ordinate', chooser.select),
+      chooser.filter && field('Find a quantity', chooser.filter),
       this.axes.length > 1 ? field('Abscissa', axes) : null,
       field('Lengths in', units),
       this.lines.some(({ classes }) => classes) ? field('Colour by', colours) : null,
@@ -851,15 +864,10 @@ export class Diagram {
     return element('p', {
       class: 'hint',
       text:
-        'Drag to zoom; use the wheel to zoom, with Alt along the ordinate; drag with Shift to pan; double-click to show all. ' +
+        'Drag to zoom; use the wheel with Ctrl to zoom, with Alt along the ordinate; drag with Shift to pan; double-click to show all. ' +
         'Keys in the diagram: ← → next point, ↑ ↓ other direction or branch, + − zoom, Shift ← → pan, 0 all.',
     });
   }
-}
-
-function optionText(column) {
-  const short = symbol(column.name);
-  return `${column.name}${short ? ` (${short})` : ''} – ${column.meaning || 'no description'}`.slice(0, 110);
 }
 
 /// Rows next to a value, of rows in the order of their values.

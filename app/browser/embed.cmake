@@ -3,7 +3,7 @@
 # The files of a report as C++: page.html, style.css, uPlot with its licence, and the modules as one script. The modules
 # have no names in common and import nothing but each other, so that they are joined by leaving out `import` and `export`.
 # Texts are always quoted here: as a list, they would lose brackets and semicolons.
-set(modules payload words theme panel diagram details chart plane run modes summary live page)
+set(modules payload words theme panel choice changes diagram details chart plane run modes summary live page)
 
 foreach(module IN LISTS modules)
   file(READ "${FOLDER}/${module}.js" text)

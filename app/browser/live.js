@@ -172,6 +172,13 @@ class Part {
     releasePanels();
     const changeable = group.find(({ numbers }) => numbers?.length > 0);
     if (!this.toolsMade && changeable) this.makeTools(changeable);
+    else if (!this.toolsMade && !group.some(({ kind }) => kind === 'sweep'))
+      this.tools.replaceChildren(
+        element('p', {
+          class: 'hint',
+          text: 'Finer regions and sliders for numbers of the input are only for a sweep, and this study is none.',
+        }),
+      );
     document.body.dataset.drawn = String(Number(document.body.dataset.drawn ?? 0) + 1);
   }
 

@@ -212,7 +212,7 @@ function partOf(group, header) {
   part.append(host);
   for (const study of group) {
     const several = group.length > 1 ? `${study.derived ? study.label : study.title}: ` : '';
-    const hidden = ['section', 'section_starts', 'spectra', 'histories', 'multipliers'];
+    const hidden = ['section', 'section_starts', 'spectra', 'histories', 'multipliers', 'change_multipliers'];
     study.summaries?.forEach(({ name, text }, k) => {
       const made = folded(`${several}Results in words (${name})`, summaryOf(text));
       made.open = k === 0 && !study.derived;

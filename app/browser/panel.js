@@ -21,6 +21,25 @@ function isLabelled(value, [low, high]) {
   return mantissa === 1 || (high < 1000 * low && (mantissa === 2 || mantissa === 5));
 }
 
+/// Values of a logarithmic axis with a tick: whole multiples of powers of ten. (Those of uPlot never end for some ranges
+/// that do not begin at one.)
+function logarithmicSplits(low, high) {
+  const splits = [];
+  if (high < 2 * low) {
+    const least = (high - low) / 8;
+    const power = 10 ** Math.floor(Math.log10(least));
+    const step = power * ([1, 2, 5].find((digit) => digit * power >= least) ?? 10);
+    for (let k = Math.ceil(low / step); k * step <= high; ++k) splits.push(k * step);
+    return splits;
+  }
+  for (let power = Math.floor(Math.log10(low)); 10 ** power <= high; ++power)
+    for (let digit = 1; digit < 10; ++digit) {
+      const value = Number(`${digit}e${power}`);
+      if (value >= low && value <= high) splits.push(value);
+    }
+  return splits;
+}
+
 /// The row of values that is nearest to the cursor, at most 20 pixels away; null: none is.
 export function nearestRow({ left, top, ...place }, xs, ys) {
   let best = null;
@@ -34,6 +53,7 @@ export function nearestRow({ left, top, ...place }, xs, ys) {
 }
 
 const all = new Set();
+let wheelExplained = false; // once, and not beside each figure
 onTheme(() => all.forEach((panel) => panel.build()));
 
 /// Gives up the panels that are not on the page any more.
@@ -113,9 +133,11 @@ export class Panel {
       labelFont: '13px system-ui, sans-serif',
       values: (plot, splits) => {
         const { min, max } = plot.scales.y;
-        const none = (value) => value === null || value === undefined || (logarithmic && !isLabelled(value, [min, max]));
+        const none = (value) =>
+          value === null || value === undefined || (logarithmic && !isLabelled(value, [min, max]));
         return splits.map((value) => (none(value) ? '' : number(value, logarithmic ? 4 : 12)));
       },
+      ...(logarithmic ? { splits: (_plot, _axis, low, high) => logarithmicSplits(low, high) } : {}),
       grid: { stroke: colours.grid, width: 1 },
       ticks: { stroke: colours.grid, width: 1, size: 5 },
     });
@@ -163,6 +185,7 @@ export class Panel {
 
   yRange() {
     const range = this.y ?? this.options.range(this.view.x);
+    if (this.options.logarithmic?.()) return finite(range) && range[0] > 0 ? range : [0.1, 1];
     return finite(range) ? range : [0, 1];
   }
 
@@ -259,6 +282,14 @@ export class Panel {
     this.tip.style.top = `${over.top - box.top + Math.max(0, top - 10)}px`;
   }
 
+  explainWheel() {
+    if (wheelExplained) return;
+    wheelExplained = true;
+    const hint = element('div', { class: 'wheel', role: 'status', text: 'Ctrl and the wheel zoom (on a Mac: ⌘)' });
+    this.node.append(hint);
+    setTimeout(() => hint.remove(), 2500);
+  }
+
   /// What was found at the cursor, or what the owner has at this abscissa.
   pickAt(found, left = this.plot.cursor.left) {
     const picked = found ?? this.options.at?.(this.plot.posToVal(left, 'x'));
@@ -277,6 +308,8 @@ export class Panel {
     over.addEventListener(
       'wheel',
       (event) => {
+        // A wheel alone scrolls the page.
+        if (!(event.ctrlKey || event.metaKey || event.altKey || event.shiftKey)) return this.explainWheel();
         event.preventDefault();
         const box = over.getBoundingClientRect();
         const factor = Math.exp(0.0015 * Math.max(-400, Math.min(400, event.deltaY)));
@@ -284,7 +317,7 @@ export class Panel {
           const at = this.plot.posToVal(event.clientY - box.top, 'y');
           this.y = this.yRange().map((value) => at + (value - at) * factor);
           this.redraw();
-        } else if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
+        } else if (event.shiftKey) {
           this.view.pan(0.001 * (event.deltaX || event.deltaY));
         } else {
           this.view.zoom(factor, this.plot.posToVal(event.clientX - box.left, 'x'));

@@ -3,6 +3,7 @@ import { Panel, View } from './panel.js';
 import { rgb, shade, theme } from './theme.js';
 import { axisLabel, element, factorOf, number, unitText } from './words.js';
 import { classNames, classesOf } from './diagram.js';
+import { quantityChooser } from './choice.js';
 import { commandLine, computedHistory, rowDetails, shellWord, showDetails } from './details.js';
 
 export class Plane {
@@ -18,8 +19,9 @@ export class Plane {
       ? [...new Set(Array.from({ length: this.table.rows }, (_, row) => this.table.word('direction', row)))]
       : [''];
     this.direction = this.directions[0];
-    this.quantities = [{ name: 'regime', form: 'classes' }];
-    if (this.table.has('attractor')) this.quantities.unshift({ name: 'attractor', form: 'attractors' });
+    this.quantities = [{ name: 'regime', form: 'classes', meaning: 'with the period of periodic orbits' }];
+    if (this.table.has('attractor'))
+      this.quantities.unshift({ name: 'attractor', form: 'attractors', meaning: 'number of the attractor' });
     for (const column of this.table.columns)
       if (column.form !== 'words' && !['point', 'value', 'second_value', 'attractor'].includes(column.name))
         this.quantities.push(column);
@@ -200,20 +202,18 @@ export class Plane {
       'aria-label': 'Cells. Arrow keys choose a cell, + and − zoom, 0 shows all.',
       onkeydown: (event) => this.key(event),
     });
-    const choice = element(
-      'select',
-      {
-        onchange: () => {
-          this.quantity = this.quantities[choice.selectedIndex];
-          this.refresh();
-        },
+    const chooser = quantityChooser(
+      this.quantities.map((column) => ({
+        column,
+        value: column.name,
+        group: ['classes', 'attractors'].includes(column.form) ? 'Regimes and attractors' : undefined,
+      })),
+      this.quantity.name,
+      ({ column }) => {
+        this.quantity = column;
+        this.refresh();
       },
-      this.quantities.map((column) =>
-        element('option', {
-          text: column.meaning ? `${column.name} – ${column.meaning}`.slice(0, 100) : column.name,
-          selected: column === this.quantity,
-        }),
-      ),
+      { id: 'quantity' },
     );
     const directions = element(
       'select',
@@ -231,7 +231,8 @@ export class Plane {
       element(
         'div',
         { class: 'toolbar' },
-        field('Colour by', choice),
+        field('Colour by', chooser.select),
+        chooser.filter && field('Find a quantity', chooser.filter),
         this.directions.length > 1 ? field('Direction', directions) : null,
         element(
           'span',
@@ -249,7 +250,7 @@ export class Plane {
           (this.legendHost = element('div')),
           element('p', {
             class: 'hint',
-            text: 'Drag to zoom; use the wheel to zoom, with Alt along the ordinate; double-click to show all. Arrow keys go from cell to cell.',
+            text: 'Drag to zoom; use the wheel with Ctrl to zoom, with Alt along the ordinate; double-click to show all. Arrow keys go from cell to cell.',
           }),
         ),
         this.details,

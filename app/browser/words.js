@@ -63,7 +63,7 @@ const statistics = {
 
 /// "δ_sp,1" of delta_sp_1, "dδ_sp,1/dτ" of its rate, "RMS of δ_sp,1" of delta_sp_rms; empty without a symbol.
 export function symbol(name) {
-  const known = { lyapunov_max: 'λ₁', multiplier_max: '|μ|max' };
+  const known = { lyapunov_max: 'λ₁', multiplier_max: '|μ|max', period: 'Period n' };
   if (known[name]) return known[name];
   const end = name.slice(name.lastIndexOf('_') + 1);
   if (statistics[end]) {

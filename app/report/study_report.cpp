@@ -36,8 +36,10 @@
 #include "store/manifest.hpp"
 #include "store/point_columns.hpp"
 #include "store/point_store.hpp"
+#include "studies/known_attractors.hpp"
 #include "studies/named_parameters.hpp"
 #include "studies/plane_options.hpp"
+#include "sweep_changes.hpp"
 #include "sweep_records.hpp"
 
 namespace epicyclic::app {
@@ -698,6 +700,7 @@ class StudyReport {
       model_at = [&plan, at = input::model_at_point(input_)](std::size_t point) { return at(plan.points[point]); };
     else
       leave_out("Rates at the Poincaré points, and histories: another version of the numerics computed this study.");
+    if (same && complete_) add_changes(model_at);
     SweepRecords records = sweep_records(
         points_, [this](std::size_t point) { return store_->read(point); }, model_at, input_.study.integrator,
         stop_here_);
@@ -707,6 +710,27 @@ class StudyReport {
       leave_out(fmt::format("Poincaré points behind the first {} of each point of the sweep: poincare.csv has them.",
                             records.rows_of_a_point));
     return {std::move(records.names), std::move(records.section), std::move(records.starts)};
+  }
+
+  /// Multipliers of the periodic orbits beside changes of the regime.
+  void add_changes(const std::function<model::DynamicModel(std::size_t)>& model_at) {
+    std::vector<studies::PointSummary> points;
+    for (const std::size_t point : points_) {
+      studies::PointSummary summary = store_->read_summary(point);
+      if (summary.orbit.empty() && summary.period > 0)
+        summary.orbit = studies::state_on(store_->read(point), model_at(point).dimension);
+      points.push_back(std::move(summary));
+    }
+    const ChangeMultipliers changes = change_multipliers(points, model_at, input_.study.integrator, stop_here_);
+    if (changes.left_out > 0)
+      leave_out(fmt::format("Multipliers at {}: the orbits are too long.",
+                            counted(changes.left_out, "changes of the regime", "change of the regime")));
+    if (changes.columns.front().empty()) return;
+    ReportTable table("change_multipliers", "", changes.columns.front().size());
+    for (std::size_t k = 0; k < changes.columns.size(); ++k)
+      table.add(data_.numbers({std::string(ChangeMultipliers::names[k]), "1", ""}, changes.columns[k],
+                              ReportData::Form::float64));
+    tables_.push_back(std::move(table));
   }
 
   /// Of one operating point all columns, of branches the deflections.

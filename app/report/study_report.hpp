@@ -1,5 +1,5 @@
 // What a report has of one study: its tables, the section and the spectra of a sweep, its input and where it came from.
-// Nothing is computed but rates of deflections at the states that are stored.
+// Nothing is computed but rates of deflections, short histories, and multipliers beside changes of the regime.
 #pragma once
 
 #include <filesystem>

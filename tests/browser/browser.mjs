@@ -138,6 +138,10 @@ export class Page {
     await this.send('Input.dispatchMouseEvent', { type, x, y, button: 'none', ...more });
   }
 
+  async wheel(x, y, deltaY, modifiers = 0) {
+    await this.mouse('mouseWheel', x, y, { deltaX: 0, deltaY, modifiers });
+  }
+
   async click(x, y, count = 1) {
     await this.mouse('mouseMoved', x, y);
     for (let n = 1; n <= count; ++n) {

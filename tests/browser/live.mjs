@@ -1,10 +1,10 @@
-// node live.mjs CHROMIUM ADDRESS GROWING_ADDRESS
+// node live.mjs CHROMIUM ADDRESS GROWING_ADDRESS MAP_ADDRESS SERVER
 //
 // The page of `serve` as a reader uses it: a study grows, a history is computed, a region is computed finer and cancelled,
 // a slider moved, two windows; a narrow screen, dark, no error and no request to another place.
 import { Browser, Checks } from './browser.mjs';
 
-const [, , program, address, growing, server] = process.argv;
+const [, , program, address, growing, map, server] = process.argv;
 const checks = new Checks();
 const { expect, clean } = checks;
 const browser = new Browser(program);
@@ -54,6 +54,14 @@ await checks.run(browser, async () => {
     );
     expect(await page.value("document.querySelector('.figure').contains(document.activeElement)"), 'the keys are gone');
     clean(page, 'growing');
+  }
+  {
+    // What is only for sweeps is not missing without a word.
+    const page = await browser.open(map);
+    const text = await page.value("document.querySelector('.live').textContent");
+    expect(/sliders.* only for a sweep/.test(text), `a map: ${text}`);
+    expect((await page.value("document.querySelectorAll('.slider, .refine').length")) === 0, 'sliders of a map');
+    clean(page, 'map');
   }
   const page = await browser.open(address);
   const all = await counted(page);

@@ -22,7 +22,12 @@ while [ ! -s growing/journal.bin ]; do sleep 0.05; done
 "$epicyclic" serve growing >growing.served 2>/dev/null &
 second=$!
 while [ ! -s growing.served ]; do sleep 0.05; done
-node "$2/tests/browser/live.mjs" "$chromium" "$(sed 's/^open //' served)" "$(sed 's/^open //' growing.served)" $server || fail "the pages"
-kill $server $second $writer 2>/dev/null || true
+study map "$inputs/tang2020_map.json" -o map --set /study/first/points=3 --set /study/second/points=2 "${few[@]}"
+"$epicyclic" serve map >map.served 2>/dev/null &
+third=$!
+while [ ! -s map.served ]; do sleep 0.05; done
+node "$2/tests/browser/live.mjs" "$chromium" "$(sed 's/^open //' served)" "$(sed 's/^open //' growing.served)" \
+  "$(sed 's/^open //' map.served)" $server || fail "the pages"
+kill $server $second $third $writer 2>/dev/null || true
 wait || true
 finish

@@ -1,7 +1,8 @@
 // node report.mjs CHROMIUM FOLDER
 //
-// Opens the reports in FOLDER (sweep.html, both.html, map.html, basins.html, run.html, gear.html, unfinished.html, hostile.html) as a
-// reader would: no error, no request, zoom, hover, click, keys, dark, a narrow screen, a PDF.
+// Opens the reports in FOLDER (sweep.html, both.html, torus.html, map.html, basins.html, run.html, gear.html, unfinished.html,
+// hostile.html) as a reader would: no error, no request, zoom, hover, click, keys, dark, a narrow screen, a PDF.
+import { readFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
 import { join } from 'node:path';
 import { Browser, Checks } from './browser.mjs';
@@ -105,16 +106,21 @@ await checks.run(browser, async () => {
     await page.click(left + 0.1 * width, top + 0.97 * height, 2);
     expect((await picture(page)) !== dragged, 'a double click does not show all');
     await page.key('0', '0');
-    await page.send('Input.dispatchMouseEvent', {
-      type: 'mouseWheel',
-      x: left + 0.5 * width,
-      y: top + 0.5 * height,
-      deltaX: 0,
-      deltaY: -300,
-    });
+    // The wheel alone scrolls the page, and a hint says so once; with Ctrl it zooms.
+    const still = await picture(page);
+    await page.wheel(left + 0.5 * width, top + 0.5 * height, 60);
+    await page.until('scrollY > 0');
+    expect((await picture(page)) === still, 'the wheel alone zooms');
+    const hints = "document.querySelectorAll('.wheel').length";
+    expect((await page.value(hints)) === 1, 'no hint about the wheel');
+    await page.until(`${hints} === 0`);
+    await page.wheel(left + 0.5 * width, top + 0.5 * height - 60, -600);
+    await page.until('scrollY === 0');
+    expect((await page.value(hints)) === 0, 'the hint about the wheel again');
+    await page.wheel(left + 0.5 * width, top + 0.5 * height, -300, 2);
     await page.frame();
-    await page.until('true');
-    expect((await picture(page)) !== chosen, 'the wheel does not zoom');
+    expect((await picture(page)) !== still, 'the wheel with Ctrl does not zoom');
+    expect((await page.value('scrollY')) === 0, 'the wheel with Ctrl scrolls');
     await page.key('0', '0');
 
     // Hover over the point that was chosen, and click.
@@ -158,8 +164,30 @@ await checks.run(browser, async () => {
     );
     await page.frame();
     expect((await picture(page)) !== before, 'another quantity is the same picture');
-    const names = await page.value("[...document.querySelectorAll('#quantity option')].map((option) => option.value)");
+    const listed = "[...document.querySelectorAll('#quantity option')].map((option) => option.value)";
+    const names = await page.value(listed);
     expect(names.includes('section:delta_rp_1') && names.includes('curve:kv_sp'), 'quantities to choose from');
+    expect(new Set(names).size === names.length, 'a quantity is listed twice');
+    // In groups, the most used first; a filter by all its words.
+    const groups = await page.value("[...document.querySelectorAll('#quantity optgroup')].map(({ label }) => label)");
+    for (const group of ['Most used', 'Deflections', 'Forces, each planet', 'Regime and its evidence', 'Counts'])
+      expect(groups.includes(group), `no group ${group} in ${groups}`);
+    expect(groups[0] === 'Poincaré points' && groups[1] === 'Most used', `the first groups are ${groups}`);
+    expect(!groups.includes('Others'), 'a quantity is in no group');
+    const filter = (text, enter) =>
+      page.value(
+        `(() => { const filter = document.querySelector('.filter input'); filter.value = '${text}'; filter.dispatchEvent(new Event('input')); if (${enter}) filter.dispatchEvent(new KeyboardEvent('keydown', { key: 'Enter' })); })()`,
+      );
+    await filter('Ring LARGEST force', false);
+    const found = await page.value(listed);
+    expect(
+      found.includes('curve:force_rp_max') && !found.includes('curve:kv_sp') && found.length < 20,
+      `the filter leaves ${found}`,
+    );
+    await filter('period n', true);
+    expect((await page.value("document.querySelector('#quantity').value")) === 'curve:period', 'Enter in the filter');
+    await filter('', false);
+    expect((await page.value(listed)).length === names.length, 'the empty filter leaves not all');
     await page.value(
       "(() => { for (const select of document.querySelectorAll('.toolbar select')) for (let k = 0; k < select.options.length; ++k) { select.selectedIndex = k; select.dispatchEvent(new Event('change')); } })()",
     );
@@ -233,6 +261,31 @@ await checks.run(browser, async () => {
       'sweep and branches are in one diagram',
     );
     const text = await page.value('document.body.innerText');
+    // Changes of the sweep by the special point between their values, and special points; each selects its point.
+    const table = (k) =>
+      page.value(
+        `[...document.querySelectorAll('.list')[${k}].querySelectorAll('tbody tr')].map((row) => [...row.children].map((cell) => cell.textContent))`,
+      );
+    const changes = await table(0);
+    const doubling = changes.filter(([at]) => at === '2.175 to 2.2' || at === '2.2 to 2.175');
+    expect(doubling.length === 2, `changes: ${JSON.stringify(changes)}`);
+    for (const [, , from, to, type, multiplier] of doubling) {
+      expect([from, to].includes('period 1'), `regimes ${from}, ${to}`);
+      expect(type === 'period doubling (flip), branch 0', `type ${type}`);
+      expect(/^−1\.0\d+ at 2\.175$/.test(multiplier), `multiplier ${multiplier}`);
+    }
+    await page.value(
+      `document.querySelectorAll('.list')[0].querySelectorAll('button.link')[${changes.indexOf(doubling[0])}].click()`,
+    );
+    expect(
+      (await chosenValue(page)) === Number(doubling[0][0].split(' ')[0]),
+      `a change selects ${await chosenValue(page)}`,
+    );
+    const [special] = await table(1);
+    expect(special[1] === 'PD: period doubling (flip)' && special[4] === '−1', `special point: ${special}`);
+    expect(/^2\.183\d+ ± 0\.0\d+$/.test(special[0]), `special point at ${special[0]}`);
+    await page.value("document.querySelectorAll('.list')[1].querySelector('button.link').click()");
+    expect((await details(page)).includes('PD: period doubling'), 'a special point is not selected');
     expect(
       text.includes('stable branch') && text.includes('PD: period doubling (flip)'),
       'what branches and special points are',
@@ -305,6 +358,73 @@ await checks.run(browser, async () => {
       'an unfinished study does not say so',
     );
     clean(page, 'unfinished.html');
+  }
+
+  // Without branches the type is that of the multiplier beyond the unit circle. The panel of the point ends above the
+  // lower edge of the window and shows that it goes on.
+  {
+    const page = await open('sweep.html', { width: 1280, height: 800 });
+    const types = await page.value(
+      "[...document.querySelectorAll('.list tbody tr')].map(({ children }) => `${children[0].textContent}: ${children[4].textContent}`)",
+    );
+    expect(types.includes('2.175 to 2.2: period doubling (flip)'), `types: ${types}`);
+    await page.value("document.querySelector('.list button.link').click()");
+    const fits = () =>
+      page.value(
+        "(() => { const place = document.querySelector('.details'); return place.getBoundingClientRect().bottom <= innerHeight && place.scrollHeight > place.clientHeight; })()",
+      );
+    await page.frame();
+    expect(await fits(), 'the panel is below the lower edge');
+    await page.value('scrollTo(0, 0)');
+    await page.frame();
+    expect(await fits(), 'the panel is below the lower edge at the top of the page');
+    const below = "document.querySelector('.below').hidden";
+    expect(!(await page.value(below)), 'nothing says that the panel goes on');
+    await page.value(
+      "[...document.querySelectorAll('.parts button')].find((one) => one.textContent === 'Spectrum').click()",
+    );
+    await page.frame();
+    const offset = await page.value(
+      "document.querySelector('[data-part=Spectrum]').getBoundingClientRect().top - document.querySelector('.details').getBoundingClientRect().top",
+    );
+    expect(offset > 0 && offset < 100, `the spectrum is ${offset} px below the top of the panel`);
+    await page.value(
+      "(() => { const place = document.querySelector('.details'); place.scrollTop = place.scrollHeight; })()",
+    );
+    await page.until(below);
+    // The label of a quantity that is no symbol.
+    await page.value(
+      "(() => { const choice = document.querySelector('#quantity'); choice.value = 'curve:period'; choice.dispatchEvent(new Event('change')); })()",
+    );
+    const option = await page.value("document.querySelector('#quantity').selectedOptions[0].textContent");
+    expect(option.startsWith('period (Period n)'), `period is called ${option}`);
+    clean(page, 'sweep.html at 1280 px');
+  }
+  {
+    // A torus whose interval excludes 0 has a sentence on it, other points have none.
+    const page = await open('torus.html');
+    await page.value("document.querySelector('.figure').focus()");
+    for (let k = 0; k < 3; ++k) await page.key('ArrowLeft');
+    let notes = 0;
+    for (let k = 0; k < 3; ++k) {
+      if (k > 0) await page.key('ArrowRight');
+      const text = await details(page);
+      const [, value, error] = /λ1−?([0-9.]+) ± ([0-9.]+) per/.exec(text) ?? [];
+      const expected = text.includes('Regimequasiperiodic') && Number(value) > Number(error);
+      expect(text.includes('On a torus λ1 is 0') === expected, `the sentence on tori: ${text.slice(0, 300)}`);
+      notes += expected ? 1 : 0;
+    }
+    expect(notes > 0, 'no interval of a torus excludes 0: choose other values');
+    clean(page, 'torus.html');
+  }
+  {
+    // Ticks of logarithmic axes: those of uPlot do not end for this range.
+    const source = readFileSync(new URL('../../app/browser/panel.js', import.meta.url), 'utf8');
+    const text = /function logarithmicSplits[^]*?\n}\n/.exec(source)[0];
+    const splits = new Function(`${text} return logarithmicSplits;`)();
+    const ticks = splits(9.670609801382717e-7, 8.13);
+    expect(ticks.length === 9 * 6 + 8 && ticks[0] === 1e-6 && ticks.at(-1) === 8, `ticks ${ticks.length}: ${ticks[0]}`);
+    expect(splits(0.2, 0.3).length >= 3, 'ticks of a narrow range');
   }
 
   // Names stay text.

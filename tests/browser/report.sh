@@ -16,6 +16,9 @@ reported() {
 make_studies
 reported sweep sweep
 reported both sweep branches
+study sweep "$inputs/tang2020_calibrated_speed.json" -o torus --set /study/from=2.6 --set /study/to=2.62 --set /study/points=3 \
+  --set '/study/directions=["up"]' --set /study/crosscheck/points=0
+reported torus torus
 reported map map
 reported basins basins
 reported run run

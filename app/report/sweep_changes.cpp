@@ -1,0 +1,110 @@
+#include "sweep_changes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "studies/orbit_across.hpp"
+
+namespace epicyclic::app {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+/// Longer orbits are left out, and those behind so many mesh periods of orbits: a page is to be written in seconds.
+constexpr int period_max = 16;
+constexpr int periods_max = 160;
+/// Two points at one value with these parts of a difference between their largest multipliers have one orbit.
+constexpr double same_multiplier = 1e-3;
+
+using Neighbours = std::pair<const studies::PointSummary*, const studies::PointSummary*>;
+
+/// The point with the orbit first; nothing if neither has one.
+/// @param before  comes first in the sweep
+std::optional<Neighbours> with_orbit(const studies::PointSummary* before, const studies::PointSummary* behind) {
+  const auto has = [](const studies::PointSummary* p) { return p->period > 0 && !p->orbit.empty(); };
+  if (!has(before) && !has(behind)) return std::nullopt;
+  const bool is_second = !has(before) || (has(behind) && before->period % behind->period == 0);
+  return is_second ? Neighbours{behind, before} : Neighbours{before, behind};
+}
+
+std::optional<studies::OrbitAcross> follow(const Neighbours& pair,
+                                           const std::function<model::DynamicModel(std::size_t)>& model_at,
+                                           const integrate::IntegratorOptions& integrator) {
+  const auto [point, other] = pair;
+  try {
+    const model::DynamicModel here = model_at(point->point.index);
+    return studies::orbit_across(here, model_at(other->point.index), std::span(point->orbit).first(here.dimension),
+                                 point->period, integrator);
+  } catch (const SolverError&) {
+    return std::nullopt;  // the change is listed without it
+  }
+}
+
+/// Both directions often have the same change.
+struct Known {
+  Neighbours pair;
+  std::optional<studies::OrbitAcross> across;
+
+  [[nodiscard]] bool is_of(const Neighbours& of) const {
+    const double largest = pair.first->evidence.largest_multiplier;
+    return of.first->point.value == pair.first->point.value && of.second->point.value == pair.second->point.value &&
+           of.first->period == pair.first->period && largest > 0.0 &&
+           std::abs(of.first->evidence.largest_multiplier - largest) <= same_multiplier * largest;
+  }
+};
+
+}  // namespace
+
+ChangeMultipliers change_multipliers(std::span<const studies::PointSummary> points,
+                                     const std::function<model::DynamicModel(std::size_t)>& model_at,
+                                     const integrate::IntegratorOptions& integrator,
+                                     const std::function<void()>& stop_here) {
+  ChangeMultipliers changes;
+  std::vector<Known> known;
+  int periods = 0;
+  for (const studies::Direction direction : {studies::Direction::up, studies::Direction::down}) {
+    std::vector<const studies::PointSummary*> along;
+    for (const studies::PointSummary& p : points)
+      if (p.point.direction == direction && p.outcome == integrate::Outcome::reached) along.push_back(&p);
+    std::ranges::stable_sort(along, {}, [](const auto* p) { return p->point.value; });
+    if (direction == studies::Direction::down) std::ranges::reverse(along);
+    for (std::size_t k = 1; k < along.size(); ++k) {
+      if (along[k]->regime == along[k - 1]->regime && along[k]->period == along[k - 1]->period) continue;
+      const auto pair = with_orbit(along[k - 1], along[k]);
+      if (!pair) continue;
+      const auto [point, other] = *pair;
+      std::optional<studies::OrbitAcross> across;
+      const auto same = std::ranges::find_if(known, [&](const Known& one) { return one.is_of(*pair); });
+      if (same != known.end()) {
+        across = same->across;
+      } else if (point->period > period_max || periods + point->period > periods_max) {
+        ++changes.left_out;
+        continue;
+      } else {
+        stop_here();
+        periods += point->period;
+        across = follow(*pair, model_at, integrator);
+        known.push_back({*pair, across});
+      }
+      if (!across) continue;
+      const bool found = across->found;
+      const std::array<double, ChangeMultipliers::names.size()> row = {static_cast<double>(point->point.index),
+                                                                       static_cast<double>(other->point.index),
+                                                                       across->here.real(),
+                                                                       across->here.imag(),
+                                                                       found ? 1.0 : 0.0,
+                                                                       found ? across->unstable : nan,
+                                                                       across->one_kind ? 1.0 : 0.0,
+                                                                       found ? across->there.real() : nan,
+                                                                       found ? across->there.imag() : nan};
+      for (std::size_t i = 0; i < row.size(); ++i) changes.columns[i].push_back(row[i]);
+    }
+  }
+  return changes;
+}
+
+}  // namespace epicyclic::app
