@@ -330,6 +330,8 @@ std::vector<std::string> problems_for_dynamics(const Stage& s) {
     check_mesh_for_dynamics(out, pointer, mesh);
     check_per_planet(out, std::string(pointer) + "/error_amplitude_um", mesh.error_amplitude_um, s.planet_count);
     check_per_planet(out, std::string(pointer) + "/error_phase_deg", mesh.error_phase_deg, s.planet_count);
+    if (mesh.error_mean_um)
+      check_per_planet(out, std::string(pointer) + "/error_mean_um", *mesh.error_mean_um, s.planet_count);
     if (mesh.stiffness_curve)
       check_stiffness_curve(out, pointer, mesh);
     else
@@ -337,6 +339,10 @@ std::vector<std::string> problems_for_dynamics(const Stage& s) {
     if (mesh.friction.ehl) check_ehl(out, std::string(pointer) + "/friction/lubricated", *mesh.friction.ehl);
     if (mesh.friction.table) check_friction_table(out, std::string(pointer) + "/friction", *mesh.friction.table);
   }
+  for (const auto& [key, errors] :
+       {std::pair("tangential", &s.planet.pin_error_tangential_um), std::pair("radial", &s.planet.pin_error_radial_um)})
+    if (*errors)
+      check_per_planet(out, std::string("/lumped/planet/pin_error_") + key + "_um", **errors, s.planet_count);
   const bool hertzian =
       s.sun_bearing.law == BearingLaw::palmgren_xy || s.sun_bearing.law == BearingLaw::palmgren_radial;
   if (hertzian && !s.sun_bearing.balls) out.add("/lumped/sun/bearing/balls", "is missing; the Palmgren laws need it");

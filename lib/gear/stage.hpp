@@ -96,6 +96,9 @@ struct Planet {
   SupportDamping damping;
   std::optional<int> teeth;
   std::optional<double> base_radius_mm;
+  /// Position errors of the pins in the carrier: one number, or one per planet [um]. Tangential: towards rising angle;
+  /// radial: outward.
+  std::optional<std::vector<double>> pin_error_tangential_um{}, pin_error_radial_um{};
 };
 
 /// Friction over phase = s / 2 pi on the common s of planet 1, in [0, 1), rising; smooth between breakpoints.
@@ -167,6 +170,8 @@ struct Mesh {
   double backlash_half_um = 0;                         ///< half gap b [um]
   std::vector<double> error_amplitude_um = {0.0};      ///< E: one number, or one per planet [um]
   std::vector<double> error_phase_deg = {0.0};         ///< phi_0: one number, or one per planet [deg]
+  /// Constant part of the transmission error, of tooth thickness or spacing: one number, or one per planet [um].
+  std::optional<std::vector<double>> error_mean_um{};
   Friction friction;
 };
 
@@ -197,7 +202,7 @@ struct Stage {
   /// The same in the direction of the torque on the sun, in which the model measures all angles and rotations [deg].
   [[nodiscard]] std::vector<double> angles_along_torque_deg() const;
 
-  /// Does the sun turn against its torque, so that the meshes run backward [gear/reversal.hpp]?
+  /// Does the sun rotate against its torque, so that the meshes run backward [gear/reversal.hpp]?
   [[nodiscard]] bool runs_backward() const { return driver != Driver::sun; }
 };
 

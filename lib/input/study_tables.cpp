@@ -48,6 +48,7 @@ const Bounds support = between(0, stiffness_max);
 const Bounds stiffness = between(stiffness_min, stiffness_max);
 const Bounds length = between(length_min_mm, length_max_mm);
 const Bounds gap = between(0, gap_max_um);
+const Bounds signed_error = between(-gap_max_um, gap_max_um);
 const Bounds damping_ratio = bounds_of("damping_ratio");
 const Bounds damping_coefficient = between(0, 1e12);
 const Bounds frequency_ratio = bounds_of("mesh_frequency_ratio");
@@ -191,6 +192,11 @@ const Table<Planet>& planet_table() {
     t.number_or_rigid("bearing_N_per_m", &Planet::bearing_N_per_m, support,
                       "Stiffness of the planet bearing, the same in all directions [N/m], or \"rigid\" (modes only).")
         .required();
+    t.number_or_numbers("pin_error_tangential_um", &Planet::pin_error_tangential_um, signed_error, gear::planets_max,
+                        "Position error of the pin in the carrier towards rising planet angles [um]: one number, or "
+                        "one per planet.");
+    t.number_or_numbers("pin_error_radial_um", &Planet::pin_error_radial_um, signed_error, gear::planets_max,
+                        "Position error of the pin in the carrier, outward [um]: one number, or one per planet.");
     return t;
   }();
   return table;
@@ -336,6 +342,9 @@ const Table<Mesh>& mesh_table() {
                         "Amplitude of the transmission error [um]: one number, or one per planet.");
     t.number_or_numbers("error_phase_deg", &Mesh::error_phase_deg, between(-largest_angle_deg, largest_angle_deg),
                         gear::planets_max, "Phase of the transmission error [deg]: one number, or one per planet.");
+    t.number_or_numbers("error_mean_um", &Mesh::error_mean_um, signed_error, gear::planets_max,
+                        "Constant part of the transmission error, of tooth thickness or spacing [um]: one number, or "
+                        "one per planet. Positive unloads the mesh.");
     t.object("friction", &Mesh::friction, friction_table());
     return t;
   }();
@@ -531,8 +540,8 @@ const Table<Stage>& stage_table() {
     t.choice("driver", &Stage::driver,
              std::vector<std::pair<std::string, gear::Driver>>{
                  {"sun", gear::Driver::sun}, {"carrier", gear::Driver::carrier}, {"ring", gear::Driver::ring}},
-             "Member through which power enters. With carrier or ring the stage increases the speed: the sun turns "
-             "against its torque.");
+             "Member through which power enters. With carrier or ring the stage increases the speed: the sun "
+             "rotates against its torque.");
     t.object("planets", itself, planets_table()).required();
     t.object("load", &Stage::load, load_table());
     t.object("catalogue", present(&Stage::catalogue), catalogue_table());

@@ -55,7 +55,7 @@ bool planets_alike(const Parameters<double, N>& p) {
     bool alike = mesh.in_phase;
     for (std::size_t h = 0; h < mesh.harmonics; ++h)
       alike = alike && equal(mesh.stiffness_cos[h]) && equal(mesh.stiffness_sin[h]);
-    return alike && equal(mesh.error_cos) && equal(mesh.error_sin);
+    return alike && equal(mesh.error_cos) && equal(mesh.error_sin) && equal(mesh.error_mean);
   };
   // Angles 2 pi / N apart: their N-th multiples are one angle, and no two are the same.
   std::array<double, N> angle;

@@ -89,6 +89,7 @@ void fill_mesh(MeshParameters<double, N>& m, const gear::Mesh& mesh, const std::
     const double theta = two_pi * m.phase_cycles[i] + along * per_planet(mesh.error_phase_deg, i) * radian;
     m.error_cos[i] = amplitude * std::sin(theta);
     m.error_sin[i] = amplitude * std::cos(theta);
+    m.error_mean[i] = scales.displacement(mesh.error_mean_um ? per_planet(*mesh.error_mean_um, i) * 1e-6 : 0.0);
   }
   constexpr double rounding = 1e-9;  // of a mesh period
   m.in_phase = true;
@@ -128,6 +129,29 @@ std::shared_ptr<const FrictionTrack> make_track(const gear::Friction& friction, 
     return track(lubricated_table(*friction.ehl, line, load, std::move(grids), halve), 0.0);
   }
   return track(gear::friction_table(*friction.coefficient, line), 0.0);
+}
+
+/// A pin that stands elsewhere moves the planet and so unloads its meshes, with t along the direction of the torque and
+/// r outward:
+///
+///   e_0sp = t cos alpha_sp + r sin alpha_sp ,  e_0rp = t cos alpha_rp - r sin alpha_rp                    [M-pin]
+///
+/// The change of the centrifugal force, of r / r_c, is left out.
+template <std::size_t N>
+void add_pin_errors(Parameters<double, N>& p, const gear::Stage& stage, const Scales& scales) {
+  const gear::PressureAngles alpha = gear::pressure_angles(stage);
+  const double along_torque = stage.load.torque_Nm.value_or(1.0) < 0.0 ? -1.0 : 1.0;
+  const auto add = [&](const std::optional<std::vector<double>>& errors_um, double to_sun, double to_ring) {
+    if (!errors_um) return;
+    for (std::size_t i = 0; i < N; ++i) {
+      const double error = scales.displacement(per_planet(*errors_um, i) * 1e-6);
+      p.sun_planet.error_mean[i] += to_sun * error;
+      p.ring_planet.error_mean[i] += to_ring * error;
+    }
+  };
+  add(stage.planet.pin_error_tangential_um, along_torque * std::cos(alpha.sun_planet),
+      along_torque * std::cos(alpha.ring_planet));
+  add(stage.planet.pin_error_radial_um, std::sin(alpha.sun_planet), -std::sin(alpha.ring_planet));
 }
 
 template <std::size_t N>
@@ -324,6 +348,7 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
   fill_supports(p, stage, scales);
   fill_loads(p, stage, scales, mesh_frequency);
   fill_meshes(p, stage, scales, mesh_frequency, options.halved_tables, like);
+  add_pin_errors(p, stage, scales);
   make_segments(p);
 
   const GyroscopicForm form = gyroscopic_form(stage.boundary, options.gyroscopic);

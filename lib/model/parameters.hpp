@@ -5,7 +5,7 @@
 //
 //   s_spi = s - z_s (phi_i - phi_1) ,  s_rpi = s + z_r (phi_i - phi_1) + 2 pi lambda_sr                  [M-phase]
 //   k_i(s) = k_0 + sum_h [ C_hi cos h s + S_hi sin h s ]  or a table over s_i                            [M-4]
-//   e_i(s) = a_i cos s + b_i sin s   from   E_i sin(s_i + phi_0i)                                        [M-e]
+//   e_i(s) = a_i cos s + b_i sin s + e_0i   from   E_i sin(s_i + phi_0i) and constant errors             [M-e]
 //
 // Units: displacements in b_c, time in tau, masses in m_0 (model/scales.hpp). Source: docs/theory/model.md, section 5;
 // Eq. (4) with a time shift inside the cosine, Eq. (1) with opposite signs. T is the scalar of the kernel: one lane,
@@ -37,6 +37,7 @@ struct MeshParameters {
   std::size_t harmonics = 0;
   std::vector<Row<T, N>> stiffness_cos, stiffness_sin;      ///< C_hi, S_hi; [harmonics][N]
   Row<T, N> error_cos{}, error_sin{};                       ///< a_i, b_i
+  Row<T, N> error_mean{};                                   ///< e_0i [M-e]
   std::shared_ptr<const PeriodicTrack<1>> stiffness_curve;  ///< in place of k_0 and harmonics; null without
   std::shared_ptr<const FrictionTrack> friction;            ///< null without friction
   Row<double, N> phase_cycles{};                            ///< mesh phase of planet i over 2 pi, at s = 0
@@ -123,6 +124,7 @@ void for_each_constant(P& p, const F& f) {
     for (auto& harmonic : m.stiffness_sin) all(harmonic);
     all(m.error_cos);
     all(m.error_sin);
+    all(m.error_mean);
   };
   const auto each = [&](auto&... constants) { (f(constants), ...); };
   f(p.omega);

@@ -1,8 +1,8 @@
 // What the mesh phase alone decides of the stage: errors, stiffness and friction of the meshes, before any state is
 // known.
 //
-//   e_i = e_c,i cos s + e_s,i sin s ,  e_i' = Omega (e_s,i cos s - e_c,i sin s)                          [M-13], [M-14]
-//   k_i(s), A_i(s), B_i(s)  by harmonics or tables on the mesh's own phase s / 2 pi + turns_i                    [M-27]
+//   e_i = e_c,i cos s + e_s,i sin s + e_0,i ,  e_i' = Omega (e_s,i cos s - e_c,i sin s) [M-13], [M-14] k_i(s), A_i(s),
+//   B_i(s)  by harmonics or tables on the mesh's own phase s / 2 pi + turns_i                    [M-27]
 //
 // The slopes of a Runge-Kutta step are taken at phases that are known when the step begins; lanes make their
 // coefficients all at once, because this is mostly waiting for one's own results.
@@ -50,7 +50,7 @@ struct MeshCoefficients {
 
   /// What harmonics decide.
   MeshCoefficients(const Parameters<P, N>& p, const MeshParameters<P, N>& mesh, const HarmonicBasis<P>& basis)
-      : error(mesh.error_cos * basis.cosine[0] + mesh.error_sin * basis.sine[0]),
+      : error(mesh.error_cos * basis.cosine[0] + mesh.error_sin * basis.sine[0] + mesh.error_mean),
         error_rate(p.omega * (mesh.error_sin * basis.cosine[0] - mesh.error_cos * basis.sine[0])),
         shared(is_lanes<P> && mesh.in_phase) {
     if (mesh.stiffness_curve) return;

@@ -119,6 +119,8 @@ std::vector<double> linear_equilibrium(Layout layout, Parameters<double, N> p) {
   p.drive = p.ring_drive = p.carrier_load = p.centrifugal = 0.0;
   p.sun_planet.error_cos.fill(0.0);
   p.ring_planet.error_cos.fill(0.0);
+  p.sun_planet.error_mean.fill(0.0);
+  p.ring_planet.error_mean.fill(0.0);
   Eigen::MatrixXd stiffness(n, n);
   for (std::size_t c = 0; c < n; ++c) {
     state[c] = 1.0;

@@ -381,7 +381,7 @@ std::string drive_words(const gear::Stage& stage) {
   const bool by_carrier = stage.driver == gear::Driver::carrier;
   const bool by_sun = stage.driver == gear::Driver::sun;
   return fmt::format(
-      "the {} drives, the {} is driven; the sun turns {} its torque; loaded flanks: those of {} torque on the sun",
+      "the {} drives, the {} is driven; the sun rotates {} its torque; loaded flanks: those of {} torque on the sun",
       by_sun       ? "sun"
       : by_carrier ? "carrier"
                    : "ring",
