@@ -19,6 +19,7 @@
 #include "core/csv.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
+#include "gear/kinematics.hpp"
 #include "input/aliases.hpp"
 #include "input/derived_study.hpp"
 #include "input/json_source.hpp"
@@ -262,10 +263,17 @@ std::size_t point_of(const Donor& donor, const FinishedStudy& from) {
 
 namespace {
 
-/// A point in words: "point 137 (up, mesh_frequency_ratio = 0.885), period 1".
+/// A point in words: "point 137 (up, mesh_frequency_ratio = 0.885), period 1". A run has one point, and no number is
+/// needed: "the run at mesh_frequency_ratio = 0.885, sun 6000 rpm, period 1".
 std::string point_words(const FinishedStudy& from, const studies::PointSummary& r) {
-  std::string words = fmt::format("point {}", r.point.index);
   const auto varied = input::varied_parameters(from.input().study);
+  std::string words = fmt::format("point {}", r.point.index);
+  if (from.input().study.kind() == "run") {
+    const input::Study& study = from.input().study;
+    words = fmt::format("the run at {} = {}", studies::speed_parameter, short_text(study.mesh_frequency_ratio, 9));
+    const double mesh_frequency = study.mesh_frequency_ratio * input::time_scale(from.input());
+    words += ", " + reports::sun_speed_words(gear::speeds(study.stage, mesh_frequency), 5);
+  }
   for (std::size_t k = 0; k < varied.size(); ++k) {
     words += fmt::format("{}{} = {}", k == 0 ? fmt::format(" ({}, ", store::direction_word(r.point.direction)) : ", ",
                          varied[k].axis.name, short_text(k == 0 ? r.point.value : r.point.second_value, 9));
@@ -309,7 +317,7 @@ std::vector<std::string> other_attractors(const FinishedStudy& from, std::size_t
 
 }  // namespace
 
-input::LoadedInput with_start(const Arguments& arguments, std::string_view kind, std::vector<std::string>* notes) {
+input::LoadedInput with_start(const Arguments& arguments, std::string_view kind, StartFacts* facts) {
   const std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
   if (arguments.from.empty()) {
     if (arguments.input.empty())
@@ -352,10 +360,11 @@ input::LoadedInput with_start(const Arguments& arguments, std::string_view kind,
   for (std::size_t k = state.size() / 2; k < state.size(); ++k) state[k] *= slower;
   further.push_back({"/study/initial_state", state, "/study/initial_state, by --from"});
   input::LoadedInput input = stage.with_further(further);
-  if (!input::moves_like(input, from.input(), there))
+  const bool same_equations = input::moves_like(input, from.input(), there);
+  if (!same_equations)
     lines.emplace_back("its equations of motion are not those of this study; its state is only an initial state");
   for (const std::string& line : lines) print_message("--from {}: {}\n", donor.text, line);
-  if (notes != nullptr) *notes = std::move(lines);
+  if (facts != nullptr) *facts = {std::move(lines), same_equations && r.regime == analysis::Regime::chaotic};
   return input;
 }
 

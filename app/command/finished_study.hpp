@@ -90,13 +90,19 @@ struct Donor {
 /// @throws InputError where the study has no such point; of a value, none within half a step
 [[nodiscard]] std::size_t point_of(const Donor& donor, const FinishedStudy& from);
 
+/// What is known of a start by --from.
+struct StartFacts {
+  std::vector<std::string> lines;  ///< where it starts, and other attractors there
+  bool is_chaotic = false;         ///< a chaotic response of the same equations of motion
+};
+
 /// The study of `run`, `crosscheck` or `tolerance`. With --from, it starts from the point that --from names. With
 /// INPUT, it is that of INPUT, with the point's state as its initial state. Without INPUT, it is the point itself.
 /// Prints on stderr where the study starts, and which other attractors are known there.
-/// @param notes  receives what was printed, if it is not null
+/// @param facts  receives what was printed and what is known of the start, if it is not null
 /// @throws InputError without INPUT and --from, with several, if there is no such point, and if it has no state
 [[nodiscard]] input::LoadedInput with_start(const Arguments& arguments, std::string_view kind,
-                                            std::vector<std::string>* notes = nullptr);
+                                            StartFacts* facts = nullptr);
 
 /// Puts the donors' states into the study as its seeds.
 /// @param sets  of the command line

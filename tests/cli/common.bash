@@ -202,13 +202,18 @@ journal_records() {
 }
 
 # Starts two ranks of a command in the background, kills one of them at some moment, and waits for the end.
-# $1: which; `launch` is theirs.
+# $1: which; `launch` is theirs. Of a short study: soon after the journals in the folder `kill_after` have a record.
 kill_a_rank_of() {
   local victim=$1 pid guard ranks
   shift
   "${launch[@]}" -n 2 "$@" --threads 1 >stdout 2>stderr &
   pid=$!
-  sleep "0.$((RANDOM % 6 + 3))"
+  if [ -n "${kill_after:-}" ]; then
+    until [ "$(journal_bytes "$kill_after")" -gt 200 ] || ! kill -0 $pid 2>/dev/null; do sleep 0.02; done
+    sleep "$(moment 200)"
+  else
+    sleep "0.$((RANDOM % 6 + 3))"
+  fi
   # The ranks are children of mpirun, in order.
   mapfile -t ranks < <(pgrep -P $pid -x epicyclic || true)
   [ ${#ranks[@]} -le "$victim" ] || kill -KILL "${ranks[$victim]}" 2>/dev/null || true

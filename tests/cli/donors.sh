@@ -9,28 +9,34 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 without_drawing
 
 short=(--set /study/transient=fixed --set /study/transient_periods=64 --set /study/recorded_periods=16)
+# What gives each donor its regime, and little to compute. A torus needs more periods than others.
+cheap=(--set /integrator/relative_tolerance=1e-6 --set /integrator/absolute_tolerance=1e-8 --set /study/output_phases=8 --set /study/classification_periods=1200)
 brief=(--set /study/exponent_periods=0 --set /study/spectrum_periods=8 --set /study/history_periods=8)
+soon=(--set /study/classification_periods=256) # of what is computed from a donor, whatever its regime
 plus() { awk -v x="$1" -v d="$2" 'BEGIN { printf "%.9f\n", x + d }'; }
 
-# make NAME SPEED [OPTION ...]: a run, a sweep and a map whose point 0 is at that speed.
+# make NAME SPEED [OPTION ...]: a run, a sweep and a map whose point 0 is at that speed. Point 1 of the sweep is at
+# `other`, or next to it.
 donors=()
 make() {
-  local name=$1 speed=$2 ends
+  local name=$1 speed=$2 ends next
   shift 2
-  code_of "$epicyclic" run "$inputs/tang2020_run.json" -o "run_$name" --set "/operation/mesh_frequency_ratio=$speed" "${short[@]}" "${brief[@]}" "$@" >code
-  ends=(from="$speed" to="$(plus "$speed" 1e-6)" points=2)
-  code_of "$epicyclic" sweep "$inputs/tang2020_speed.json" -o "sweep_$name" "${ends[@]/#/--set=/study/}" "${short[@]}" --set /study/crosscheck/points=0 "$@" >>code
-  code_of "$epicyclic" map "$inputs/tang2020_map.json" -o "map_$name" "${ends[@]/#/--set=/study/first/}" --set=/study/second/points=2 "${short[@]}" "$@" >>code
+  code_of "$epicyclic" run "$inputs/tang2020_run.json" -o "run_$name" --set "/operation/mesh_frequency_ratio=$speed" "${short[@]}" "${cheap[@]}" "${brief[@]}" "$@" >code
+  next=$(plus "$speed" 1e-6)
+  ends=(from="$speed" to="${other:-$next}" points=2)
+  code_of "$epicyclic" sweep "$inputs/tang2020_speed.json" -o "sweep_$name" "${ends[@]/#/--set=/study/}" "${short[@]}" "${cheap[@]}" --set /study/crosscheck/points=0 "$@" >>code
+  ends[1]=to=$next
+  code_of "$epicyclic" map "$inputs/tang2020_map.json" -o "map_$name" "${ends[@]/#/--set=/study/first/}" --set=/study/second/points=2 "${short[@]}" "${cheap[@]}" "$@" >>code
   grep -qv '[01]' code && fail "the donors $name: $(<code) $(<stderr)"
   donors+=("$name:$speed")
 }
 make one 2.8
 make two 2.1016949
-make torus 2.0457627
+other=2.8 make torus 2.0457627 --set /study/classification_periods=3584
 make chaos 1.3
 make undecided 1.3 --set /study/classification_periods=0
 make unsettled 2.8 --set /study/transient_periods=0 --set /study/recorded_periods=8
-make recurrent 2.8 --set /model/gap_damping=contact_slope --set /study/transient_periods=1500
+make recurrent 2.8 --set /model/gap_damping=contact_slope --set /study/transient_periods=800 --set /study/recurrence_tolerance=0.05
 make none 2.8 --set /integrator/max_steps_per_period=10
 
 # told FOLDER: status and regime of its point 0.
@@ -53,17 +59,17 @@ takes() {
   [ "$code" != 2 ] || [ -s stderr ] || fail "$* was refused without a word"
 }
 methods=(--set '/study/methods=["arkode-dopri5"]')
-tolerances=(--set '/study/tolerances=[1e-5, 1e-6]' --set /study/reference_tolerance=1e-9 --set /study/chaotic_periods=64)
+tolerances=(--set '/study/tolerances=[1e-5]' --set /study/reference_tolerance=1e-7 --set /study/chaotic_periods=64)
 for donor in "${donors[@]}"; do
   name=${donor%:*} speed=${donor#*:}
   [ "$name" = none ] && codes=2 || codes='0 1'
   for kind in run sweep map; do
     from="${kind}_$name:0"
-    takes "$codes" "$epicyclic" run --from "$from" "${brief[@]}"
+    takes "$codes" "$epicyclic" run --from "$from" "${brief[@]}" "${soon[@]}"
     takes "$codes" "$epicyclic" crosscheck --from "$from" "${methods[@]}"
-    takes "$codes" "$epicyclic" tolerance --from "$from" "${methods[@]}" "${tolerances[@]}"
+    takes "$codes" "$epicyclic" tolerance --from "$from" "${methods[@]}" "${tolerances[@]}" "${soon[@]}"
     # Of no periodic motion there may be no orbit near it, which is a result, and no branch.
-    near=(from="$(plus "$speed" -1e-4)" to="$(plus "$speed" 1e-4)" starts=[] largest_period=2 tolerance=1e-7)
+    near=(from="$(plus "$speed" -1e-4)" to="$(plus "$speed" 1e-4)" starts=[] largest_period=2 tolerance=1e-6 output_phases=8 orbits=4)
     takes "$codes" "$epicyclic" continue "$inputs/tang2020_branches.json" --from "$from" "${near[@]/#/--set=/study/}"
   done
 done

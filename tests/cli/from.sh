@@ -51,6 +51,8 @@ near "$(value delta_sp_max nudged)" "$(value delta_sp_max run_down)" 0.01 || fai
 [ "$(code_of "$epicyclic" crosscheck --from sweep:down=0.89 -o check --threads 2 --set '/study/methods=["arkode-dopri5", "cvode-adams", "cvode-bdf"]')" = 0 ] || fail "crosscheck: $(<stderr)"
 [ "$(grep -c ',agree,' check/crosscheck.csv)" = 2 ] || fail "crosscheck: methods on two branches: $(<check/crosscheck.csv)"
 near "$(value delta_sp_max check)" "$(value delta_sp_max run_down)" 1e-5 || fail "crosscheck: on another branch"
+[ "$(code_of "$epicyclic" crosscheck --from run_down:0 -o of_run --threads 2 --set '/study/methods=["arkode-dopri5"]')" = 0 ] || fail "crosscheck of a run: $(<stderr)"
+grep -q -- '^--from run_down:0: the run at mesh_frequency_ratio = 0.89, sun [0-9.]* rpm, period 1$' stderr || fail "crosscheck of a run: where it starts: $(<stderr)"
 [ "$(code_of "$epicyclic" tolerance --from sweep:down=0.89 -o accuracy --threads 2 --set '/study/methods=["arkode-dopri5"]')" = 0 ] ||
   fail "tolerance: $(<stderr)"
 near "$(value delta_sp_max accuracy)" "$(value delta_sp_max run_down)" 1e-5 || fail "tolerance: on another branch"

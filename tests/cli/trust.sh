@@ -24,6 +24,7 @@ done
 is_drawn c1/figures/crosscheck
 [ "$(wc -l <c1/crosscheck.csv)" = 7 ] || fail "crosscheck.csv must have a header and 2 x 3 rows"
 [ "$(grep -c ',agree,' c1/crosscheck.csv)" = 4 ] || fail "the methods must agree: $(cat c1/crosscheck.csv)"
+grep -q '^- mesh_frequency_ratio = 2.8, sun [0-9.]* rpm (up), .*: smoothing; ' c1/crosscheck.md || fail "a difference without its speed: $(<c1/crosscheck.md)"
 [ "$(grep -c ',smoothing,' c1/crosscheck.csv)" = 2 ] || fail "the width must be what differs: $(cat c1/crosscheck.csv)"
 [ "$(code_of "$epicyclic" crosscheck crosscheck.json -o c1)" = 1 ] || fail "a complete folder with differences must give exit 1 again"
 [ "$(code_of "$epicyclic" crosscheck crosscheck.json -o c3 --set '/study/clearance_smoothings=[1e-6]' --set '/study/methods=["arkode-dopri5"]')" = 0 ] ||

@@ -461,6 +461,27 @@ TEST(RunSummary, TellsWhatTablesHalfAsFineMoveTheOrbitBy) {
   EXPECT_TRUE(contains(on_one_line(run_summary(output(), r)), "half as fine the orbit is 3.2e-09 away"));
 }
 
+TEST(RunSummary, SaysThatTheChaosOfAStartWasATransient) {
+  const std::string words = "The start is chaotic, with the same equations of motion: that chaos was a transient.";
+  studies::RunResult r = result_of();
+  EXPECT_FALSE(contains(on_one_line(run_summary(output(), r)), words));
+  RunOutput from_chaos = output();
+  from_chaos.start_is_chaotic = true;
+  EXPECT_TRUE(contains(on_one_line(run_summary(from_chaos, r)), words));
+  for (const auto regime : {analysis::Regime::chaotic, analysis::Regime::undecided}) {
+    r.point.regime = regime;
+    EXPECT_FALSE(contains(on_one_line(run_summary(from_chaos, r)), words)) << to_string(regime);
+  }
+}
+
+TEST(RunSummary, SaysThatARecordHasNotReachedTheOrbit) {
+  const std::string words = "The record has not reached this orbit, or is too short to show it";
+  studies::RunResult r = result_of();
+  EXPECT_FALSE(contains(on_one_line(run_summary(output(), r)), words));
+  r.point.recurrence = {0, 0.25, 7, 0.25};
+  EXPECT_TRUE(contains(on_one_line(run_summary(output(), r)), words));
+}
+
 TEST(RunSummary, FitsIntoAHundredColumns) {
   std::istringstream lines(run_summary(output(), result_of()));
   for (std::string line; std::getline(lines, line);) {

@@ -1,6 +1,7 @@
 // epicyclic reproduce: compares the claims of a publication with a stage. Each sweep of the claims is a study of its
 // own in a folder of its own. The results are the scorecard and the figures as they are published.
 
+#include <chrono>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,12 +18,14 @@
 #include "claims/scorecard.hpp"
 #include "claims_commands.hpp"
 #include "core/atomic_file.hpp"
+#include "core/counted.hpp"
 #include "core/errors.hpp"
 #include "finished_study.hpp"
 #include "folder.hpp"
 #include "installed_files.hpp"
 #include "kind_commands.hpp"
 #include "preparation.hpp"
+#include "progress.hpp"
 #include "session.hpp"
 #include "stop.hpp"
 #include "streams.hpp"
@@ -113,11 +116,13 @@ int reproduce_command(const Arguments& given) {
     return static_cast<int>(done);
   };
   int code = compute(folder.path(), "gear", input.resolved["stage"], gear_command);
+  const auto begun = std::chrono::steady_clock::now();
   for (const studies::Start start : options.starts)
     for (const claims::ClaimSweep& sweep : options.sweeps)
       if (code == done)
         code =
             compute(sweeps, folder_name(sweep, start), claims::sweep_input(input, sweep, start), sweep_command().run);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
   if (code != done) {
     session.end(store::RunState::stopped, {});
     return code;
@@ -160,6 +165,8 @@ int reproduce_command(const Arguments& given) {
                                           {"holding", static_cast<std::int64_t>(card.holding())},
                                           {"unlike", static_cast<std::int64_t>(unlike.size())},
                                           {"undrawn", undrawn}});
+  print_message("{} together: {} in this session\n", counted(options.starts.size() * options.sweeps.size(), "sweeps"),
+                duration_text(spent.count()));
   if (arguments.json) {
     nlohmann::json summary_json = {
         {"folder", folder.path().string()}, {"claims", options.claims.size()},

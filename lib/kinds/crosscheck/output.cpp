@@ -95,14 +95,13 @@ std::string crosscheck_summary(const AxisWords& words, const studies::Crosscheck
     if (first) text += "\nDifferences:\n\n";
     first = false;
     const studies::PointResult& r = all.reference[c.point];
-    std::string value;
+    std::string value = words.name + " = ";
     append_number(value, words.factor * r.point.value);
-    if (words.name != studies::speed_parameter && words.factor != 1.0)
-      value += " " + words.name;
-    else if (const double sun = r.meshes.speeds.sun; sun != 0.0)
+    const bool in_rpm_or_hertz = words.name != studies::speed_parameter && words.factor != 1.0;
+    if (const double sun = r.meshes.speeds.sun; sun != 0.0 && !in_rpm_or_hertz)
       value += fmt::format(", sun {:.6g} rpm", gear::rpm * sun);
-    text += fmt::format("- point {} ({}, {}), {}: {}; {}\n", r.point.index, store::direction_word(r.point.direction),
-                        value, all.variants[c.variant].label, to_string(c.verdict), c.detail);
+    text += fmt::format("- {} ({}), {}: {}; {}\n", value, store::direction_word(r.point.direction),
+                        all.variants[c.variant].label, to_string(c.verdict), c.detail);
   }
   return text;
 }

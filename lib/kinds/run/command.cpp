@@ -176,7 +176,7 @@ Expected time_of_run(const input::LoadedInput& input, const studies::SweepPlan& 
 }
 
 int run_run(const Arguments& arguments) {
-  std::vector<std::string> start;
+  StartFacts start;
   const input::LoadedInput input = with_start(arguments, "run", &start);
   require_kind(input, arguments, "run");
   const input::Study& study = input.study;
@@ -204,7 +204,8 @@ int run_run(const Arguments& arguments) {
   const reports::SweepOutput points{study.sweep(), studies::poincare_columns(model), session.resolved(),
                                     reports::figure_title(study)};
   const kinds::RunOutput output{
-      points, options, model.sun_planet_half_gap, model.ring_planet_half_gap, study.model.gap_damping, start};
+      points,      options,         model.sun_planet_half_gap, model.ring_planet_half_gap, study.model.gap_damping,
+      start.lines, start.is_chaotic};
   const bool computed = result->point.outcome == integrate::Outcome::reached;
   const std::string summary = kinds::run_summary(output, *result);
   const studies::PointSource point = studies::points_in_memory({&result->point, 1});

@@ -430,10 +430,7 @@ std::string regime_sentence(const RunResult& r) {
   switch (p.regime) {
     case Regime::periodic:
       return p.classified
-                 ? fmt::format(
-                       "Periodic: the states repeat after {}. Newton's method found the orbit. All its Floquet "
-                       "multipliers are inside the unit circle, and the trajectory converges to it.",
-                       mesh_periods(p.period))
+                 ? fmt::format("Periodic: the states repeat after {}.", mesh_periods(p.period))
                  : fmt::format("Periodic by recurrence alone: the record repeats after {} to within the tolerance.",
                                mesh_periods(p.period));
     case Regime::quasiperiodic:
@@ -463,7 +460,13 @@ analysis::Estimate largest_exponent(const RunResult& r) {
 std::string regime_text(const RunOutput& output, const RunResult& r) {
   const studies::PointResult& p = r.point;
   const analysis::Evidence& e = p.evidence;
-  std::string text = wrapped(regime_sentence(r)) + "\n";
+  std::string text = wrapped(regime_sentence(r) + " Evidence: docs/reference/regimes.md.") + "\n";
+  if (output.start_is_chaotic && (p.regime == Regime::periodic || p.regime == Regime::quasiperiodic))
+    text += bullet("**The start is chaotic, with the same equations of motion: that chaos was a transient.**");
+  if (p.is_unconverged())
+    text += bullet(
+        "**The record has not reached this orbit, or is too short to show it** (`converged` is 0 in points.csv). Use "
+        "\"transient\": \"adaptive\" or more /study/transient_periods.");
   if (p.regime == Regime::periodic && p.classified) {
     std::string line =
         fmt::format("The orbit closes to {:.2g} in its largest component [b_c, b_c per tau] and is known to {:.2g}",
@@ -476,8 +479,8 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
   }
   if (r.table_displacement) {
     std::string line = fmt::format(
-        "With tables of friction and stiffness half as fine the orbit is {:.2g} away [b_c, b_c per tau]: "
-        "interpolation in them moves it by less than that, mostly by a sixteenth",
+        "With tables of friction and stiffness half as fine the orbit is {:.2g} away [b_c, b_c per tau] "
+        "(docs/reference/outputs.md)",
         *r.table_displacement);
     if (r.friction_table_error > 0.0)
       line += fmt::format("; friction over normal force is off by {:.2g} at most", r.friction_table_error);
@@ -542,12 +545,9 @@ std::string tensile_text(const RunOutput& output, const RunResult& r) {
   if (rows.size() == 1) return "\nNo mesh force is tensile.\n";
   const bool always = output.gap_damping == model::GapDamping::always;
   return "\n" + aligned(rows) + "\n" +
-         wrapped(fmt::format(
-             "Teeth cannot transmit tension. The tensile force is that of the damping, {}",
-             always
-                 ? "which acts through the open gap, too, as Eq. (27) of Tang et al. prints it (/model/gap_damping "
-                   "\"always\"). With \"contact_slope\" it acts in contact only."
-                 : "which exceeds the elastic force before contact is lost (/model/gap_damping \"contact_slope\")."));
+         wrapped(fmt::format("The tensile force is that of the damping {}. See docs/reference/model_options.md.",
+                             always ? "through the open gap (/model/gap_damping \"always\")"
+                                    : "before contact is lost (/model/gap_damping \"contact_slope\")"));
 }
 
 std::string meshes_text(const RunOutput& output, const RunResult& r) {
@@ -563,20 +563,9 @@ std::string meshes_text(const RunOutput& output, const RunResult& r) {
                     fmt::format("{:.4f}", m.load_sharing), percent(m.drive), percent(m.loss), percent(m.back),
                     fmt::format("{:.3g}", m.contact_losses / periods)});
   text += aligned(rows);
-  text += "\n" +
-          wrapped(fmt::format(
-              "Normal force F, its mean, least and largest value; F/F_0: max F over F_0 = {:.1f} N, the static one of "
-              "a sun-planet mesh; K_v: max F over "
-              "the largest quasi-static force of the same mesh; share: load "
-              "sharing of the planets, N mean F / sum of the means over one kind of mesh; drive, "
-              "loss, back: parts of the time on the driving "
-              "flank, between the flanks, on the back; losses: times that the driving flank "
-              "was left, per mesh period. Over {:g} mesh periods.",
-              r.static_force, record_periods(r.history)));
-  text += "\n" + wrapped(fmt::format(
-                     "`history.csv` and `results.h5` have {} uniform samples of each mesh period. The largest values "
-                     "above are of finer samples and can exceed theirs.",
-                     r.history.phases));
+  text +=
+      "\n" + wrapped(fmt::format("Over {:g} mesh periods. Columns: docs/reference/outputs.md, \"Summary of a run\".",
+                                 record_periods(r.history)));
   text += tensile_text(output, r);
   text += "\n" + wrapped(fmt::format("Planets' spread: {:.3g} b_c, the largest difference between their deflections.",
                                      r.point.meshes.planet_spread));
@@ -615,7 +604,7 @@ std::string exponents_text(const RunResult& r) {
     rows.push_back({fmt::format("lambda_{}", i + 1), with_error(x.value * r.omega, x.half_width * r.omega),
                     with_error(x.value * mesh_period, x.half_width * mesh_period)});
   }
-  text += aligned(rows) + "\n";
+  text += aligned(rows) + "\n" + wrapped("Definitions and checks: docs/theory/regimes.md.") + "\n";
   const std::string dimension = short_text(r.dimension, 4);
   const std::string low = short_text(r.dimension_low, 4);
   const std::string high = short_text(r.dimension_high, 4);
@@ -626,23 +615,18 @@ std::string exponents_text(const RunResult& r) {
                              low == high ? "" : fmt::format("; by the exponents' intervals {} to {}", low, high)));
   if (!r.checks) return text;
   text += bullet(fmt::format(
-      "Sum of all: {:.10g} per tau; mean divergence of the field along the same trajectory: {:.10g}; difference "
-      "{:.2g}. Over the first {} of them.",
-      r.checks->sum, r.checks->divergence, std::abs(r.checks->sum - r.checks->divergence),
-      mesh_periods(r.checks->intervals)));
+      "Sum of all: {:.10g} per tau; mean divergence of the field: {:.10g}; difference {:.2g} (over {}).", r.checks->sum,
+      r.checks->divergence, std::abs(r.checks->sum - r.checks->divergence), mesh_periods(r.checks->intervals)));
   constexpr double agreed = 1e-3;  // of the divergence
   if (!(std::abs(r.checks->sum - r.checks->divergence) <= agreed * std::abs(r.checks->divergence) + agreed))
     text += bullet("**Sum and divergence disagree: the exponents above are not those of the attractor.**");
   if (r.checks->multipliers)
-    text += bullet(fmt::format(
-        "Against log |multiplier| over the period: {} of {} within their intervals, largest difference {:.2g} "
-        "per tau.",
-        r.checks->inside, r.checks->compared, *r.checks->multipliers));
+    text += bullet(
+        fmt::format("Against the multipliers: {} of {} within their intervals, largest difference {:.2g} per tau.",
+                    r.checks->inside, r.checks->compared, *r.checks->multipliers));
   if (r.checks->step_control)
-    text +=
-        bullet(fmt::format("Against exponents without error control of the tangents: largest difference {:.2g} per "
-                           "tau.",
-                           *r.checks->step_control));
+    text += bullet(fmt::format("Without error control of the tangents: largest difference {:.2g} per tau.",
+                               *r.checks->step_control));
   return text;
 }
 

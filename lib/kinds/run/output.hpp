@@ -33,6 +33,7 @@ struct RunOutput {
   double half_gap_rp = 0;  ///< b_rp [b_c]
   model::GapDamping gap_damping = model::GapDamping::always;
   std::vector<std::string> start;  ///< where it started and what else is known there, a sentence each; none by default
+  bool start_is_chaotic = false;   ///< it continues a chaotic response of the same equations of motion
 };
 
 /// Highest frequency in spectrum.csv [mesh frequencies]; results.h5 has all.
