@@ -19,7 +19,6 @@
 #include "core/csv.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
-#include "gear/kinematics.hpp"
 #include "input/aliases.hpp"
 #include "input/derived_study.hpp"
 #include "input/json_source.hpp"
@@ -272,7 +271,7 @@ std::string point_words(const FinishedStudy& from, const studies::PointSummary& 
     const input::Study& study = from.input().study;
     words = fmt::format("the run at {} = {}", studies::speed_parameter, short_text(study.mesh_frequency_ratio, 9));
     const double mesh_frequency = study.mesh_frequency_ratio * input::time_scale(from.input());
-    words += ", " + reports::sun_speed_words(gear::speeds(study.stage, mesh_frequency), 5);
+    words += ", " + reports::sun_speed_words(study.stage, mesh_frequency, 5);
   }
   for (std::size_t k = 0; k < varied.size(); ++k) {
     words += fmt::format("{}{} = {}", k == 0 ? fmt::format(" ({}, ", store::direction_word(r.point.direction)) : ", ",

@@ -23,6 +23,12 @@ namespace epicyclic::reports {
          " rpm, mesh frequency " + short_text(mesh_frequency / (2.0 * std::numbers::pi), digits) + " Hz";
 }
 
+/// The sun's speed of a stage at a mesh frequency.
+/// @param mesh_frequency  omega_m [rad/s]
+[[nodiscard]] inline std::string sun_speed_words(const gear::Stage& stage, double mesh_frequency, int digits) {
+  return sun_speed_words(gear::speeds(stage, mesh_frequency), digits);
+}
+
 /// At a mesh frequency ratio of a stage that moves.
 [[nodiscard]] inline std::string speed_words(const gear::Stage& stage, double mesh_frequency_ratio) {
   const double mesh_frequency = mesh_frequency_ratio * model::scales_of(stage).omega_sn;
