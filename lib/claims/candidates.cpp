@@ -37,6 +37,14 @@ RecordingOptions screening_recording(const ClaimsOptions& options, const Screeni
   return recording;
 }
 
+/// Does a condition read the largest Lyapunov exponent?
+bool needs_exponents(const ClaimsOptions& options) {
+  return std::ranges::any_of(options.claims, [](const Claim& claim) {
+    return std::ranges::any_of(claim.conditions, [](const Condition& c) { return c.quantity == "lyapunov_max"; }) ||
+           std::ranges::any_of(claim.as_printed, [](const Condition& c) { return c.quantity == "lyapunov_max"; });
+  });
+}
+
 /// Is there a condition on the sweep that multipliers can lead to?
 bool needs_multipliers(const ClaimsOptions& options, const ClaimSweep& sweep) {
   constexpr std::array<ConditionKind, 5> kinds = {ConditionKind::share, ConditionKind::count, ConditionKind::change,
@@ -166,7 +174,10 @@ Evaluation evaluate_whole(const ClaimsOptions& options, const integrate::Integra
                           const SweepModels& models, const std::atomic<bool>* stop) {
   ClaimRecord record;
   for (const ClaimSweep* sweep : sweeps_spoken_of(options)) {
-    const SweepOptions whole = options.whole_sweep(*sweep, options.starts.front());
+    SweepOptions whole = options.whole_sweep(*sweep, options.starts.front());
+    // Evidence beyond the record changes no dot.
+    if (reading == Reading::printed && whole.recording.transient == Transient::fixed && !needs_exponents(options))
+      whole.recording.classification_periods = 0;
     const SweepPlan plan = plan_sweep(whole);
     SweepRun run;
     run.stop = stop;

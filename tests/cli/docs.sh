@@ -66,7 +66,7 @@ while IFS= read -r line; do
   if [ "$command ${words[2]:-}" = "reproduce tang2020" ]; then
     k=0
     for points in 67 19 19 11 21 11 4 11 4 23 23; do arguments+=(--set "/study/sweeps/$((k++))/points=$points"); done
-    arguments+=(--set '/study/starts=["cold"]' --set /study/recorded_periods=6)
+    arguments+=(--set '/study/starts=["cold"]' --set /study/recorded_periods=16)
   fi
   # Each in a folder of its own, whatever the page calls it.
   for ((k = 0; k < ${#arguments[@]}; ++k)); do

@@ -20,7 +20,7 @@ declare -A cut=(
   [check]=--no-time
 )
 # Of claims that have a name.
-claims=(--set '/study/starts=["cold"]' --set /study/transient_periods=2 --set /study/recorded_periods=6 --set /study/classification_periods=8)
+claims=(--set '/study/starts=["cold"]' --set /study/transient_periods=2 --set /study/recorded_periods=16 --set /study/classification_periods=8)
 k=0
 for points in 67 19 19 11 21 11 4 11 4 23 23; do claims+=(--set "/study/sweeps/$((k++))/points=$points"); done
 
