@@ -24,6 +24,7 @@
 #include "command/host.hpp"
 #include "command/kind_commands.hpp"
 #include "command/progress.hpp"
+#include "core/errors.hpp"
 #include "core/instruction_set.hpp"
 #include "ranks/ranks.hpp"
 #include "store/point_columns.hpp"
@@ -141,8 +142,12 @@ class Job {
   }
 
   /// Of a job that is over: its exit code.
-  /// @throws what ended it
+  /// @throws what ended it, or InputError if it is not over
   int result() {
+    {
+      const std::scoped_lock lock(mutex_);
+      if (!over_) throw InputError("the command is not over");
+    }
     if (error_) std::rethrow_exception(error_);
     return code_;
   }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import re
+import reprlib
 from typing import Any, Iterable, NamedTuple, Tuple
 
 
@@ -41,6 +42,11 @@ class Problem(NamedTuple):
         """Return all of it in one line."""
         place = f"{self.file}:{self.line}" if self.file and self.line else self.file
         return ": ".join(part for part in (place, self.pointer, self.message) if part)
+
+
+def repr_of(value: Any) -> str:
+    """Return a value for a message, shortened: lists in lists may be deep, and arrays large."""
+    return reprlib.repr(value)
 
 
 _MEANT = re.compile(r"; did you mean (?:one of: )?(.*)\?$")

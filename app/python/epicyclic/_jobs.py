@@ -13,7 +13,7 @@ import weakref
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
-from ._errors import OutputError, core
+from ._errors import OutputError, core, repr_of
 from ._results import Result
 from ._results import open as open_folder
 
@@ -68,7 +68,7 @@ class Job:
     ) -> None:
         count = own_threads() if threads is None else threads
         if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count <= 4096:
-            raise ValueError(f"threads is {threads!r}, must be an integer from 1 to 4096")
+            raise ValueError(f"threads is {repr_of(threads)}, must be an integer from 1 to 4096")
         module = core()
         self._show = _shown(progress)
         self._scratch = Path(tempfile.mkdtemp(prefix="epicyclic-"))
@@ -165,7 +165,7 @@ def _shown(progress: Union[None, bool, ProgressFunction]) -> Optional[ProgressFu
     if progress is True:
         return _Bar()
     if not callable(progress):
-        raise TypeError(f"progress is {progress!r}, must be a function, True or None")
+        raise TypeError(f"progress is {repr_of(progress)}, must be a function, True or None")
     return progress
 
 

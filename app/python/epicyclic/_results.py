@@ -11,7 +11,7 @@ from typing import Any, Dict, List, Optional, Tuple, Type, Union
 
 import numpy as np
 
-from ._errors import ResultError, needed
+from ._errors import ResultError, needed, repr_of
 from ._tables import Array, Hdf5, Table, csv_header, read_csv
 
 _SPEEDS = {"rpm": "sun_speed_rpm", "Hz": "mesh_frequency_Hz"}
@@ -278,7 +278,7 @@ class Result:
         ResultError
             If the folder has no Poincaré points, or no such point.
         """
-        number = int(point) if isinstance(point, (int, np.integer)) else int(point["point"])
+        (number,) = (int(point),) if isinstance(point, (int, np.integer)) else self._of_row(point, "point")
         points = self._table("points").columns["point"] if "points" in self.tables else np.array([])
         if number not in points:
             raise ResultError(f"{self.folder}: there is no point {number}; numbers go from 0 to {len(points) - 1}")
@@ -288,6 +288,13 @@ class Result:
         if "point" in table.columns:
             table = table.rows(np.flatnonzero(table.columns["point"] == number))
         return table.frame()
+
+    def _of_row(self, row: Any, *names: str) -> Tuple[int, ...]:
+        """Return numbers in a row of ``points``."""
+        try:
+            return tuple(int(row[name]) for name in names)
+        except (IndexError, KeyError, OverflowError, TypeError, ValueError):
+            raise ResultError(f"{self.folder}: {repr_of(row)} is no number of a point and no row of points") from None
 
     # -- xarray
 
@@ -584,7 +591,7 @@ class Branches(Result):
         """
         points = self._table("branch").columns
         if not isinstance(point, (int, np.integer)):
-            branch, orbit = int(point["branch"]), int(point["index"])
+            branch, orbit = self._of_row(point, "branch", "index")
         else:
             number = int(point)
             if not 0 <= number < len(points["branch"]):
@@ -715,8 +722,12 @@ def open(folder: Union[str, Path]) -> Result:  # noqa: A001
         If it is no folder of this program, is not finished, or is damaged.
     """
     path = Path(folder)
-    if not path.is_dir():
+    try:
+        known = path.is_dir()
         reason = "is a file, not a result folder" if path.exists() else "no such folder"
+    except OSError as error:  # such as a name that is too long
+        raise ResultError(f"{path}: {error.strerror}") from error
+    if not known:
         raise ResultError(f"{path}: {reason}")
     if not (path / "run.json").is_file():
         raise ResultError(f"{path}: is not a result folder of epicyclic: it has no run.json")

@@ -10,7 +10,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 import numpy.typing as npt
 
-from ._errors import InputError, core
+from ._errors import InputError, core, repr_of
 
 Array = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
@@ -204,13 +204,13 @@ class System:
         jacobian: Any = None,
     ) -> None:
         if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or not 1 <= n <= 10000:
-            raise InputError(f"n is {n!r}, must be an integer from 1 to 10000")
+            raise InputError(f"n is {repr_of(n)}, must be an integer from 1 to 10000")
         if not callable(period):
             period = _finite(period, "period")
             if period <= 0:
                 raise InputError(f"period is {period}, must be > 0")
         if not isinstance(params, Mapping):
-            raise InputError(f"params is {params!r}, must be a mapping of names to numbers")
+            raise InputError(f"params is {repr_of(params)}, must be a mapping of names to numbers")
         self.n = int(n)
         self.params: Dict[str, float] = {str(k): _finite(v, f"params[{k!r}]") for k, v in params.items()}
         self.period = period
@@ -408,7 +408,7 @@ class System:
             If there is no orbit to start from.
         """
         if parameter not in self.params:
-            raise InputError(f"no parameter {parameter!r}; there are: {', '.join(self.params)}")
+            raise InputError(f"no parameter {repr_of(parameter)}; there are: {', '.join(self.params)}")
         low, high = (_finite(bound, "bounds") for bound in bounds)
         values = self._values(params)
         which = list(self.params).index(parameter)
@@ -433,7 +433,7 @@ class System:
     def _values(self, other: Mapping[str, float]) -> Array:
         unknown = [name for name in other if name not in self.params]
         if unknown:
-            raise InputError(f"no parameter {unknown[0]!r}; there are: {', '.join(self.params)}")
+            raise InputError(f"no parameter {repr_of(unknown[0])}; there are: {', '.join(self.params)}")
         both = {**self.params, **{k: _finite(v, k) for k, v in other.items()}}
         return np.array(list(both.values()), dtype=np.float64)
 
@@ -441,8 +441,8 @@ class System:
 def _finite(value: Any, name: str) -> float:
     try:
         number = float(value)
-    except (TypeError, ValueError):
-        raise InputError(f"{name} is {value!r}, must be a number") from None
+    except (OverflowError, TypeError, ValueError):
+        raise InputError(f"{name} is {repr_of(value)}, must be a number") from None
     if not np.isfinite(number):
         raise InputError(f"{name} is {number}, must be finite")
     return number
@@ -450,7 +450,7 @@ def _finite(value: Any, name: str) -> float:
 
 def _count(value: Any, name: str, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value < 2**31:
-        raise InputError(f"{name} is {value!r}, must be an integer >= {least}")
+        raise InputError(f"{name} is {repr_of(value)}, must be an integer >= {least}")
     return int(value)
 
 
@@ -482,4 +482,4 @@ def _function(f: Any, name: str) -> Tuple[int, Optional[Any]]:
         return address, None
     if callable(f):
         return 0, f
-    raise InputError(f"{name} is {f!r}, must be a function, or the address of one")
+    raise InputError(f"{name} is {repr_of(f)}, must be a function, or the address of one")
