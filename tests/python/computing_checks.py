@@ -3,6 +3,7 @@
 import copy
 import ctypes
 import gc
+import importlib.util
 import json
 import os
 import pickle
@@ -291,6 +292,33 @@ class Systems(unittest.TestCase):
         self.check_doublings(duffing(0.2))
         self.assertEqual(duffing(0.2, jacobian=False).derivatives, "differences")
         self.check_doublings(duffing(0.2, jacobian=False))
+
+    @unittest.skipUnless(importlib.util.find_spec("numba"), "numba is not installed")
+    def test_doublings_of_functions_of_numba(self):
+        from numba import carray, cfunc, types
+
+        doubles = types.CPointer(types.double)
+        signature = types.void(types.double, doubles, doubles, doubles)
+
+        @cfunc(signature)
+        def f(t, y, p, dydt):
+            dydt[0] = y[1]
+            dydt[1] = p[0] * np.cos(p[2] * t) - p[1] * y[1] + y[0] - y[0] ** 3
+
+        @cfunc(signature)
+        def j(t, y, p, out):
+            rows = carray(out, (2, 2))
+            rows[0, 0], rows[0, 1], rows[1, 0], rows[1, 1] = 0.0, 1.0, 1.0 - 3.0 * y[0] ** 2, -p[1]
+
+        params = {"force": 0.2, "damping": 0.3, "frequency": 1.2}
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # that of a Python function would be one
+            system = ep.System(f, 2, params, lambda p: 2 * np.pi / p[2], jacobian=j)
+            of_address = ep.System(f.address, 2, params, 2 * np.pi / 1.2)
+        self.check_doublings(system)
+        states = [s.section([1.0, 0.0], transient=2, periods=4).states for s in (system, of_address, duffing(0.2))]
+        np.testing.assert_allclose(states[0], states[2], atol=1e-9)
+        np.testing.assert_allclose(states[1], states[2], atol=1e-9)
 
     def test_regimes_and_exponents(self):
         system = duffing(0.2)
