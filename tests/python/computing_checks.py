@@ -315,6 +315,9 @@ class Systems(unittest.TestCase):
             warnings.simplefilter("error")  # that of a Python function would be one
             system = ep.System(f, 2, params, lambda p: 2 * np.pi / p[2], jacobian=j)
             of_address = ep.System(f.address, 2, params, 2 * np.pi / 1.2)
+        wrong = cfunc(types.void(types.double, doubles, doubles))(lambda t, y, p: None)
+        with self.assertRaisesRegex(ep.InputError, "signature"):
+            ep.System(wrong, 2, params, 1.0)
         self.check_doublings(system)
         states = [s.section([1.0, 0.0], transient=2, periods=4).states for s in (system, of_address, duffing(0.2))]
         np.testing.assert_allclose(states[0], states[2], atol=1e-9)

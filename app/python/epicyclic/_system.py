@@ -192,7 +192,7 @@ class System:
 
     Notes
     -----
-    The library cannot check the signature of a C function. A wrong one ends the process.
+    The signature of a ``numba.cfunc`` is checked. That of any other C function cannot be: a wrong one ends the process.
     """
 
     def __init__(
@@ -469,9 +469,16 @@ def _is_code(address: int) -> bool:
     return False
 
 
+#: Of a function of numba.
+_SIGNATURE = "(float64, float64*, float64*, float64*) -> none"
+
+
 def _function(f: Any, name: str) -> Tuple[int, Optional[Any]]:
     """Return the address of a C function and None, or 0 and a Python function."""
     address = getattr(f, "address", None)  # numba
+    signature = getattr(f, "_sig", None)
+    if signature is not None and str(signature) != _SIGNATURE:
+        raise InputError(f"{name} has the signature {signature}, must have {_SIGNATURE}")
     if isinstance(f, getattr(ctypes, "_CFuncPtr")):
         address = ctypes.cast(f, ctypes.c_void_p).value
     elif isinstance(f, int) and not isinstance(f, bool):
