@@ -5,6 +5,7 @@ import ctypes
 import gc
 import importlib.util
 import json
+import multiprocessing
 import os
 import pickle
 import signal
@@ -15,6 +16,7 @@ import threading
 import time
 import unittest
 import warnings
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import epicyclic as ep
@@ -166,6 +168,61 @@ class Studies(Folders):
         left, right = files_of(self.work / "a"), files_of(self.work / "b")
         for name in ("points.csv", "poincare.csv", "input.resolved.json", "input.json", "sweep.md"):
             self.assertEqual(left[name], right[name], name)
+
+
+def call(task):
+    """Call a method of a stage with keyword arguments: what processes of a pool are given."""
+    stage, method, keys = task
+    return getattr(stage, method)(**keys)
+
+
+class Workers(Folders):
+    KEYS = {"first": {"points": 3}, "second": {"points": 2}, "transient": "fixed", "transient_periods": 2, "recorded_periods": 8}
+
+    def setUp(self):
+        super().setUp()
+        self.map = stage("tang2020_map.json")
+
+    def tasks(self):
+        """Return the tasks of both parts of a map, and those of single points."""
+        part = {"kind": "map", "of": 2, "out": self.work / "parts", "threads": 1, **self.KEYS}
+        parts = [(self.map, "part", {**part, "number": number}) for number in (1, 2)]
+        point = {**FEW, "parameter": "mesh_frequency_ratio", "start": "cold"}
+        points = [(stage("tang2020.json"), "point", {**point, "value": value}) for value in (2.0, 2.1)]
+        return parts + points
+
+    def check(self, found):
+        self.assertEqual(found[:2], [None, None])
+        self.assertEqual([row["value"] for row in found[2:]], [2.0, 2.1])
+        self.assertEqual(found[2]["kv_sp"], call(self.tasks()[2])["kv_sp"])
+        self.map.map(out=self.work / "parts", **self.KEYS)
+        self.map.map(out=self.work / "whole", **self.KEYS)
+        parts, whole = files_of(self.work / "parts"), files_of(self.work / "whole")
+        for name in ("points.csv", "input.json", "input.resolved.json"):
+            self.assertEqual(parts[name], whole[name], name)
+
+    def test_new_processes(self):
+        pool = ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn"))
+        with pool:
+            self.check(list(pool.map(call, self.tasks())))
+
+    def test_forked_processes_of_one_that_has_computed(self):
+        stage("tang2020.json").point(value=2.0, parameter="mesh_frequency_ratio", **FEW)
+        with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("fork")) as pool:
+            self.check(list(pool.map(call, self.tasks())))
+
+    @unittest.skipUnless(importlib.util.find_spec("distributed"), "dask.distributed is not installed")
+    def test_dask(self):
+        from distributed import Client, LocalCluster
+
+        with LocalCluster(2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
+            self.check(client.gather(client.map(call, self.tasks(), pure=False)))
+
+    def test_parts_that_are_not_there(self):
+        for kind, number, of in (("run", 1, 2), ("map", 0, 2), ("map", 3, 2), ("map", 1.0, 2), ("map", True, 2), ("map", 1, 10001)):
+            with self.assertRaises(ep.InputError):
+                self.map.part(kind, number, of, out=self.work / "none", **self.KEYS)
+        self.assertFalse((self.work / "none").exists())
 
 
 class Stages(unittest.TestCase):

@@ -172,6 +172,8 @@ def study():
 
 
 def wrong_study():
+    if pick.random() < 0.1:
+        return refused(STAGES[1].part, mostly("sweep"), mostly(1), mostly(2), out=mostly(folder / "part"))
     return refused(getattr(pick.choice(STAGES), pick.choice(STUDIES)), **names(3))
 
 
@@ -284,9 +286,9 @@ def raw():
         return _core.System(mostly(2), mostly(0), 0, odd(), 0, odd(), odd()).section(odd(), odd(), odd(), odd(), odd(), odd())
     if kind == 4:
         known = pick.choice(["sweep", "map", None, 3])
-        return _core.Job(known, mostly("no"), mostly("x"), mostly(1), mostly([]), mostly(""), mostly(""), odd())
+        return _core.Job(known, mostly("no"), mostly("x"), mostly(1), mostly([]), mostly(""), mostly(""), mostly(0), odd(), odd())
     if kind == 5:
-        job = _core.Job(pick.choice(["sweep", "gear", "run"]), str(folder / "none.json"), str(folder / "x"), 1, [], "", "", 0)
+        job = _core.Job(pick.choice(["sweep", "gear", "run"]), str(folder / "none.json"), str(folder / "x"), 1, [], "", "", 0, 0, 0)
         for _ in range(pick.randint(1, 6)):
             pick.choice([job.stop, lambda: job.wait(0.001), job.messages, job.progress, job.rows, job.result])()
         return None

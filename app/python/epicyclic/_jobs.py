@@ -52,6 +52,8 @@ class Job:
         Folders for the options of that name; ``origins`` are those of ``--from``.
     rows
         Points that are taken as they are computed; after as many the command stops.
+    part
+        Number of a part, from 1, and of all parts: the share of the points to compute. None: all, with the results.
     """
 
     def __init__(
@@ -65,6 +67,7 @@ class Job:
         grow: Union[None, str, Path] = None,
         against: Union[None, str, Path] = None,
         rows: int = 0,
+        part: Optional[Tuple[int, int]] = None,
     ) -> None:
         count = own_threads() if threads is None else threads
         if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count <= 4096:
@@ -79,7 +82,8 @@ class Job:
         study = self._scratch / "input.json"
         study.write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")
         self._core = module.Job(
-            command, str(study), str(self.folder), count, [str(o) for o in origins], str(grow or ""), str(against or ""), rows
+            command, str(study), str(self.folder), count, [str(o) for o in origins], str(grow or ""), str(against or ""),
+            rows, *(part or (0, 0)),
         )
 
     def __del__(self) -> None:
@@ -104,6 +108,13 @@ class Job:
         for _ in self.rows():
             pass
         return self._finished()
+
+    def wait_for_part(self) -> None:
+        """Wait for the end of a part, which leaves a journal and no results."""
+        for _ in self.rows():
+            pass
+        if self._core.result() != 0:
+            raise OutputError("\n".join(self._words))
 
     def _finished(self) -> Result:
         code = self._core.result()

@@ -307,6 +307,36 @@ class Stage:
         finally:
             rows.close()
 
+    def part(
+        self, kind: str, number: int, of: int, *, out: Union[str, Path], threads: Optional[int] = None, **keys: Any
+    ) -> None:
+        """Compute a part of a sweep, map or basins, as ``--part NUMBER/OF`` of the command.
+
+        Other processes compute the other parts, at the same time or later. Afterwards ``sweep``, ``map`` or ``basins``
+        with the same folder and keys computes what is missing, and gives the results: those of one process.
+
+        Parameters
+        ----------
+        kind
+            ``"sweep"``, ``"map"`` or ``"basins"``.
+        number, of
+            Number of the part, from 1, and of all parts.
+        out
+            Folder of all parts.
+        threads, **keys
+            As of ``sweep``.
+
+        Raises
+        ------
+        OutputError
+            If another process computes this part, or as of ``sweep``.
+        """
+        if kind not in ("sweep", "map", "basins"):
+            raise InputError(f"a study of kind {repr_of(kind)} has no parts; those of sweep, map and basins have")
+        if not all(isinstance(k, int) and not isinstance(k, bool) for k in (number, of)) or not 1 <= number <= of <= 10000:
+            raise InputError(f"part {repr_of(number)} of {repr_of(of)}: must be integers, 1 <= number <= of <= 10000")
+        self._job(kind, out, threads, None, keys, part=(number, of)).wait_for_part()
+
     def map(
         self,
         *,
