@@ -186,8 +186,9 @@ class Job {
 };
 
 std::unique_ptr<Job> make_job(const std::string& command, const std::string& input, const std::string& output,
-                              int threads, const std::vector<std::string>& from, const std::string& grow,
-                              const std::string& against, std::size_t rows, std::size_t part, std::size_t parts) {
+                              int threads, const std::vector<std::string>& sets, const std::vector<std::string>& from,
+                              const std::string& grow, const std::string& against, std::size_t rows, std::size_t part,
+                              std::size_t parts) {
   const bool whole = part == 0 && parts == 0;
   if (!whole && (part < 1 || part > parts))
     throw InputError("there is no part " + std::to_string(part) + " of " + std::to_string(parts));
@@ -197,6 +198,7 @@ std::unique_ptr<Job> make_job(const std::string& command, const std::string& inp
   arguments.input = input;
   arguments.output = output;
   arguments.threads = threads;
+  arguments.sets = sets;
   arguments.from = from;
   arguments.grow = grow;
   arguments.against = against;
@@ -209,7 +211,8 @@ std::unique_ptr<Job> make_job(const std::string& command, const std::string& inp
 void add_jobs(py::module_& module) {
   py::class_<Job>(module, "Job")
       .def(py::init(&make_job), py::arg("command"), py::arg("input"), py::arg("output"), py::arg("threads"),
-           py::arg("origins"), py::arg("grow"), py::arg("against"), py::arg("rows"), py::arg("part"), py::arg("parts"))
+           py::arg("sets"), py::arg("origins"), py::arg("grow"), py::arg("against"), py::arg("rows"), py::arg("part"),
+           py::arg("parts"))
       .def("stop", &Job::stop)
       .def("wait", &Job::wait, py::arg("seconds"))
       .def("messages", &Job::messages)

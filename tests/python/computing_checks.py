@@ -111,6 +111,21 @@ class Studies(Folders):
         point = stage().point(value=first["value"], **{**FEW, "start": "cold"})
         self.assertEqual(point["value"], first["value"])
 
+    def test_a_run_from_a_point(self):
+        result = stage().sweep(out=self.work / "a", points=3, **FEW)
+        point = result.near(3.5, direction="down")
+        run = result.run_at(point, recorded_periods=16, exponent_periods=12, spectrum_periods=16, threads=1)
+        self.assertEqual((run.kind, run.points.value[0]), ("run", 3.5))
+        self.assertEqual(run.input["study"]["initial_state"], list(result.section(point)[stage().rhs().names].iloc[-1]))
+        self.assertEqual(result.run_at(int(point.point), exponent_periods=12, spectrum_periods=16).points.value[0], 3.5)
+        with self.assertRaises(ep.InputError) as caught:
+            result.run_at(0, exponent_period=12)
+        problem = caught.exception.problems[0]
+        self.assertEqual((problem.file, problem.pointer, problem.suggestion), ("", "/study/exponent_period", "exponent_periods"))
+        for wrong in (6, -1, None, "0", {}):
+            with self.assertRaises(ep.ResultError):
+                result.run_at(wrong)
+
     def test_gear(self):
         found = stage("tang2020.json").gear()
         self.assertGreater(len(found["quantities"]), 20)

@@ -263,10 +263,11 @@ def results():
         return SWEEP.section(odd())
     if kind == 3:
         return SWEEP.table(odd())
-    if kind == 4 and pick.random() < 0.02:
+    if kind == 4 and pick.random() < 0.5:
+        return SWEEP.run_at(odd(), **{pick.choice(KEYS): odd(), "poitns": 3})
+    if kind == 4 and pick.random() < 0.04:
         return SWEEP.plot(mostly(pick.choice(COLUMNS)), mostly(None), mostly(None))
-    gone = STAGES[3].study("sweep")
-    return repr(gone)
+    return repr(SWEEP)
 
 
 # The compiled module itself

@@ -62,6 +62,7 @@ class Job:
         input: str,
         output: str,
         threads: int,
+        sets: Sequence[str],
         origins: Sequence[str],
         grow: str,
         against: str,

@@ -74,7 +74,7 @@ class InputError(ValueError):
 
 def _problem(file: str, line: int, pointer: str, message: str) -> Problem:
     meant = _MEANT.search(message)
-    return Problem(file, line, pointer, message, meant.group(1) if meant else "")
+    return Problem(file, line, pointer, message, meant.group(1).replace("'", "") if meant else "")
 
 
 class OutputError(OSError):

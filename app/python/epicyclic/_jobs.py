@@ -41,7 +41,7 @@ class Job:
     command
         Name, such as ``"sweep"``.
     document
-        The study.
+        The study; None for that of ``origins``.
     out
         Folder; None for a temporary one.
     threads
@@ -52,6 +52,8 @@ class Job:
         Folders for the options of that name; ``origins`` are those of ``--from``.
     rows
         Points that are taken as they are computed; after as many the command stops.
+    sets
+        Texts for ``--set``: a JSON pointer, ``=`` and a JSON value.
     part
         Number of a part, from 1, and of all parts: the share of the points to compute. None: all, with the results.
     """
@@ -59,7 +61,7 @@ class Job:
     def __init__(
         self,
         command: str,
-        document: Dict[str, Any],
+        document: Optional[Dict[str, Any]],
         out: Union[None, str, Path],
         threads: Optional[int],
         progress: Union[None, bool, ProgressFunction] = None,
@@ -67,6 +69,7 @@ class Job:
         grow: Union[None, str, Path] = None,
         against: Union[None, str, Path] = None,
         rows: int = 0,
+        sets: Sequence[str] = (),
         part: Optional[Tuple[int, int]] = None,
     ) -> None:
         count = own_threads() if threads is None else threads
@@ -79,11 +82,12 @@ class Job:
         self._temporary = out is None
         self.folder = self._scratch / command if out is None else Path(out)
         self._words: List[str] = []
-        study = self._scratch / "input.json"
-        study.write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")
+        study = "" if document is None else str(self._scratch / "input.json")
+        if study:
+            Path(study).write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")
         self._core = module.Job(
-            command, str(study), str(self.folder), count, [str(o) for o in origins], str(grow or ""), str(against or ""),
-            rows, *(part or (0, 0)),
+            command, study, str(self.folder), count, list(sets), [str(o) for o in origins], str(grow or ""),
+            str(against or ""), rows, *(part or (0, 0)),
         )
 
     def __del__(self) -> None:

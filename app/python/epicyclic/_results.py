@@ -11,7 +11,7 @@ from typing import Any, Dict, List, Optional, Tuple, Type, Union
 
 import numpy as np
 
-from ._errors import ResultError, needed, repr_of
+from ._errors import InputError, ResultError, needed, repr_of
 from ._tables import Array, Hdf5, Table, csv_header, read_csv
 
 _SPEEDS = {"rpm": "sun_speed_rpm", "Hz": "mesh_frequency_Hz"}
@@ -140,6 +140,22 @@ class Result:
         """Count the planets by names with ``_sp_1``, ``_sp_2`` and so on."""
         numbers = [int(m.group(1)) for n in names for m in [re.search(r"_sp_(\d+)(?:_|$)", n)] if m]
         return max(numbers, default=0)
+
+    @property
+    def summary(self) -> str:
+        """The results in words, as the program wrote them: ``sweep.md``, ``continue.md`` and so on.
+
+        Of a sweep: ranges of regimes, changes, coexisting attractors, largest forces, and what is not certain.
+
+        Raises
+        ------
+        ResultError
+            If the program writes no such file for this kind.
+        """
+        for name in (f"{self.kind}.md", "summary.md"):
+            if (self.folder / name).is_file():
+                return (self.folder / name).read_text(encoding="utf-8")
+        raise ResultError(f"{self.folder}: a {self.kind} has no results in words")
 
     @property
     def warnings(self) -> List[str]:
@@ -288,6 +304,45 @@ class Result:
         if "point" in table.columns:
             table = table.rows(np.flatnonzero(table.columns["point"] == number))
         return table.frame()
+
+    def run_at(
+        self, point: Any, *, out: Union[None, str, Path] = None, threads: Optional[int] = None, progress: Any = None,
+        **keys: Any,
+    ) -> Run:
+        """Compute one point again with all results, as ``epicyclic run --from``.
+
+        The initial state is that of the point, so the response is on the same attractor. Stage, model and integrator are
+        those of this folder. The package needs its compiled module.
+
+        Parameters
+        ----------
+        point
+            Number of the point: column ``point`` of ``points``; or a row of ``points``, as ``near`` returns it.
+        out, threads, progress
+            As of ``Stage.sweep``.
+        **keys
+            Keys of the study of kind ``run``, such as ``exponent_periods=2000``.
+
+        Raises
+        ------
+        ResultError
+            If there is no such point, or no point of this kind has a state.
+        """
+        from ._jobs import Job
+        from ._stage import assignment, without_file
+
+        if self.kind not in ("sweep", "map", "basins", "run"):
+            raise ResultError(f"{self.folder}: points of a {self.kind} have no state to start from")
+        (number,) = (int(point),) if isinstance(point, (int, np.integer)) else self._of_row(point, "point")
+        if not 0 <= number < len(self._table("points")):
+            raise ResultError(f"{self.folder}: there is no point {number} of {len(self._table('points'))}")
+        sets = [assignment(f"/study/{key[:-1] if key.endswith('_') else key}", value) for key, value in keys.items()]
+        try:
+            found = Job("run", None, out, threads, progress, origins=[f"{self.folder}:{number}"], sets=sets).wait()
+        except InputError as error:
+            without_file(error)
+        assert isinstance(found, Run)
+        return found
 
     def _of_row(self, row: Any, *names: str) -> Tuple[int, ...]:
         """Return numbers in a row of ``points``."""

@@ -151,7 +151,7 @@ class Stage:
                 raise TypeError(f"{repr_of(pointer)} is no JSON pointer")
         if "stage" not in document and any(not p.startswith("/stage") for p in values):
             document = {"stage": document, "study": {"kind": "run"}}
-        return Stage._of(_parsed(document, [f"{p}={json.dumps(_plain(v))}" for p, v in values.items()]).resolved)
+        return Stage._of(_parsed(document, [assignment(p, v) for p, v in values.items()]).resolved)
 
     def to_dict(self) -> Document:
         """Return the complete input with all defaults, and the origin of each value."""
@@ -445,15 +445,20 @@ class Stage:
         return f"<Stage {', '.join(parts)}>"
 
 
+def assignment(pointer: str, value: Any) -> str:
+    """Return the text of ``--set``."""
+    return f"{pointer}={json.dumps(_plain(value))}"
+
+
 def _parsed(document: Document, sets: Sequence[str] = ()) -> Any:
     """Read a document of Python."""
     try:
         return core().Input.parse(json.dumps(document), _NAME, list(sets))
     except InputError as error:
-        _raise_without_file(error)
+        without_file(error)
 
 
-def _raise_without_file(error: InputError) -> NoReturn:
+def without_file(error: InputError) -> NoReturn:
     """Raise the error with problems that name no file: there is none."""
     kept = [p._replace(file="", line=0) for p in error.problems]
     raise InputError("\n".join(p.text() for p in kept) if kept else str(error), kept) from None
