@@ -280,6 +280,11 @@ class Stages(unittest.TestCase):
         problem = [p for p in caught.exception.problems if "kind" in p.pointer][0]
         self.assertEqual((problem.file, problem.line), (file.name, 2))
         self.assertIn("sweep", problem.suggestion)
+        with tempfile.NamedTemporaryFile("w", suffix=".json", encoding="utf-8") as file:
+            file.write(300 * "é")
+            file.flush()
+            with self.assertRaisesRegex(ep.InputError, "json:1: "):
+                ep.Stage.load(file.name)
         again = pickle.loads(pickle.dumps(caught.exception))
         self.assertEqual(again.problems, caught.exception.problems)
 
