@@ -2,8 +2,11 @@
 # fuzz_arguments.sh EPICYCLIC SOURCE_DIR PACKAGE_DIR
 #
 # The package refuses arguments of wrong types, shapes and values: fuzz_arguments.py, CALLS calls from the random numbers of
-# SEED. Of a build by the preset asan, with its module: AddressSanitizer is loaded before Python. Skipped (77) without a
-# Python that loads the module and has pandas and h5py.
+# SEED. Skipped (77) without a Python that loads the module and has pandas and h5py.
+#
+# Of a build by the preset asan with EPICYCLIC_PYTHON=ON, AddressSanitizer is loaded before Python, and with it the C++
+# library, whose exceptions it watches. Kernels take long to compile there; these options compile them once:
+# -D CMAKE_BUILD_TYPE=Debug -D CMAKE_CXX_FLAGS_DEBUG='-O1 -g1 -fno-omit-frame-pointer'
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$here/../cli/common.bash"
@@ -12,7 +15,8 @@ export PYTHONPATH=$3 MPLBACKEND=agg PYTHONDONTWRITEBYTECODE=1
 runtime=()
 for module in "$3"/epicyclic/_core.*.so; do
   ! grep -qa __asan_init "$module" ||
-    runtime=(env "LD_PRELOAD=$("${CXX:-c++}" -print-file-name=libasan.so)" "ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1")
+    runtime=(env "LD_PRELOAD=$("${CXX:-c++}" -print-file-name=libasan.so) $("${CXX:-c++}" -print-file-name=libstdc++.so)"
+      "ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1")
 done
 for python in "${EPICYCLIC_PYTHON:-python3}" /usr/bin/python3 none; do
   "${runtime[@]}" "$python" -c 'import h5py, pandas, epicyclic._core' 2>/dev/null && break

@@ -66,6 +66,8 @@ def plot(result: Result, quantity: Optional[str], ax: Optional[Any], direction: 
     if ax is None:
         pyplot = needed("matplotlib.pyplot", "a figure")
         _, ax = pyplot.subplots(figsize=(7.5, 5.0), layout="constrained")
+    if not hasattr(ax, "plot"):
+        raise TypeError(f"ax is {type(ax).__name__}, must be Axes of matplotlib")
     drawing(ax)
     _finish(result, ax)
     return ax

@@ -246,7 +246,11 @@ class Result:
         values = table.columns[column]
         if values.dtype.kind not in "if":
             raise ResultError(f"{self.folder}: column {column} has texts, not numbers")
-        distance = np.abs(values.astype(float) - float(value))
+        try:
+            value = float(value)
+        except (OverflowError, TypeError, ValueError):
+            raise ResultError(f"{self.folder}: {repr_of(value)} is no number to be near to") from None
+        distance = np.abs(values.astype(float) - value)
         if direction is not None:
             if "direction" not in table.columns:
                 raise ResultError(f"{self.folder}: points have no direction")

@@ -410,13 +410,16 @@ class System:
         if parameter not in self.params:
             raise InputError(f"no parameter {repr_of(parameter)}; there are: {', '.join(self.params)}")
         low, high = (_finite(bound, "bounds") for bound in bounds)
+        step = _finite(max_step, "max_step")
+        if step <= 0:
+            raise InputError(f"max_step is {step}, must be > 0")
         values = self._values(params)
         which = list(self.params).index(parameter)
         if not low <= values[which] <= high or low >= high:
             raise InputError(f"{parameter} is {values[which]}, must be within the bounds {low} and {high}")
         found = self._core.branches(
             start, values, which, low, high, _count(transient, "transient", 0), _count(period, "period", 1),
-            _count(largest_period, "largest_period", 1), float(max_step), _count(most, "most", 1), tolerance,
+            _count(largest_period, "largest_period", 1), step, _count(most, "most", 1), tolerance,
         )
         return [
             Branch(
