@@ -219,7 +219,7 @@ def make_system():
     return ep.System(f, n, mostly(PARAMS), mostly(5.2), mostly(None))
 
 
-COUNTS = [1, 2, 3, 0, -1, 1.5, None, "a", True, 2**31, 2**70, np.int8(2), float("nan"), [1]]
+COUNTS = [1, 2, 3, 0, -1, 1.5, None, "a", True, 2**31 - 1, 2**31, 2**70, np.int8(2), float("nan"), [1]]
 TOLERANCES = [1e-6, 1e-8, 0, -1e-8, 1e-300, 1e300, float("nan"), float("inf"), None, "a", [1e-6], True]
 
 

@@ -111,6 +111,8 @@ class Stage:
         name
             Name of the stage.
         """
+        if not isinstance(name, str):
+            raise TypeError(f"name is {repr_of(name)}, must be a text")
         drawing = core().Drawing()
         drawing.teeth = [int(z) for z in _numbers(teeth, "teeth")]
         if len(drawing.teeth) not in (2, 3):

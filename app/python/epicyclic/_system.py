@@ -451,9 +451,13 @@ def _finite(value: Any, name: str) -> float:
     return number
 
 
+#: Largest number of periods.
+_MOST = 10**9
+
+
 def _count(value: Any, name: str, least: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value < 2**31:
-        raise InputError(f"{name} is {repr_of(value)}, must be an integer >= {least}")
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= _MOST:
+        raise InputError(f"{name} is {repr_of(value)}, must be an integer from {least} to {_MOST}")
     return int(value)
 
 
