@@ -29,8 +29,8 @@ inline Array finite_array(const pybind11::object& given, const std::string& name
   if (const char kind = any.dtype().kind(); kind != 'f' && kind != 'i' && kind != 'u')
     throw InputError(name + " has elements of type " + pybind11::str(any.dtype()).cast<std::string>() +
                      ", not real numbers");
-  Array numbers = Array::ensure(any);
-  if (!numbers) throw pybind11::error_already_set();
+  Array numbers = Array::ensure(any);  // which clears the error of Python
+  if (!numbers) throw InputError(name + " has the shape " + shape_text(any) + ", which cannot be copied");
   for (pybind11::ssize_t i = 0; i < numbers.size(); ++i)
     if (!std::isfinite(numbers.data()[i])) throw InputError(name + " has numbers that are not finite");
   return numbers;

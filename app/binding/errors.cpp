@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <new>
+#include <string>
 #include <system_error>
 
 #include "binding.hpp"
@@ -22,10 +23,17 @@ void raise(const char* name, Arguments&&... arguments) {
   PyErr_SetObject(type.ptr(), error.ptr());
 }
 
+/// Of bytes that need not be UTF-8: texts have parts of files, and may end within a character.
+py::str decoded(const std::string& bytes) {
+  PyObject* text = PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()), "replace");
+  if (text == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(text);
+}
+
 py::list problems_of(const input::InputProblems& error) {
   py::list problems;
   for (const input::Problem& p : error.problems())
-    problems.append(py::make_tuple(p.file, p.line, p.pointer, p.message));
+    problems.append(py::make_tuple(decoded(p.file), p.line, decoded(p.pointer), decoded(p.message)));
   return problems;
 }
 
@@ -34,23 +42,23 @@ void translate(std::exception_ptr error) {
   try {
     std::rethrow_exception(error);
   } catch (const input::InputProblems& e) {
-    raise("InputError", e.what(), problems_of(e));
+    raise("InputError", decoded(e.what()), problems_of(e));
   } catch (const InputError& e) {
-    raise("InputError", e.what());
+    raise("InputError", decoded(e.what()));
   } catch (const OutputError& e) {
-    raise("OutputError", e.what());
+    raise("OutputError", decoded(e.what()));
   } catch (const store::DamagedData& e) {
-    raise("OutputError", e.what());
+    raise("OutputError", decoded(e.what()));
   } catch (const store::JournalInUse& e) {
-    raise("OutputError", e.what());
+    raise("OutputError", decoded(e.what()));
   } catch (const SolverError& e) {
-    raise("NumericalError", e.what());
+    raise("NumericalError", decoded(e.what()));
   } catch (const DomainError& e) {
-    raise("NumericalError", e.what());
+    raise("NumericalError", decoded(e.what()));
   } catch (const std::bad_alloc&) {
     PyErr_SetString(PyExc_MemoryError, app::out_of_memory);
   } catch (const std::system_error& e) {
-    raise("OutputError", e.what());
+    raise("OutputError", decoded(e.what()));
   }
 }
 

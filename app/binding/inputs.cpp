@@ -96,7 +96,7 @@ std::string drawn_study(const std::string& name, const app::InitArguments& given
   drawing.name = name;
   nlohmann::ordered_json study = input::starter_sweep(drawing, "stage.json");
   study["stage"] = input::starter_stage(drawing);
-  return study.dump();
+  return study.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 }  // namespace

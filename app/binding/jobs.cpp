@@ -24,6 +24,7 @@
 #include "command/host.hpp"
 #include "command/kind_commands.hpp"
 #include "command/progress.hpp"
+#include "core/errors.hpp"
 #include "core/instruction_set.hpp"
 #include "ranks/ranks.hpp"
 #include "store/point_columns.hpp"
@@ -141,8 +142,12 @@ class Job {
   }
 
   /// Of a job that is over: its exit code.
-  /// @throws what ended it
+  /// @throws what ended it, or InputError if it is not over
   int result() {
+    {
+      const std::scoped_lock lock(mutex_);
+      if (!over_) throw InputError("the command is not over");
+    }
     if (error_) std::rethrow_exception(error_);
     return code_;
   }
@@ -181,12 +186,19 @@ class Job {
 };
 
 std::unique_ptr<Job> make_job(const std::string& command, const std::string& input, const std::string& output,
-                              int threads, const std::vector<std::string>& from, const std::string& grow,
-                              const std::string& against, std::size_t rows) {
+                              int threads, const std::vector<std::string>& sets, const std::vector<std::string>& from,
+                              const std::string& grow, const std::string& against, std::size_t rows, std::size_t part,
+                              std::size_t parts) {
+  const bool whole = part == 0 && parts == 0;
+  if (!whole && (part < 1 || part > parts))
+    throw InputError("there is no part " + std::to_string(part) + " of " + std::to_string(parts));
   app::Arguments arguments;
+  arguments.part.number = part;
+  arguments.part.of = parts;
   arguments.input = input;
   arguments.output = output;
   arguments.threads = threads;
+  arguments.sets = sets;
   arguments.from = from;
   arguments.grow = grow;
   arguments.against = against;
@@ -199,7 +211,8 @@ std::unique_ptr<Job> make_job(const std::string& command, const std::string& inp
 void add_jobs(py::module_& module) {
   py::class_<Job>(module, "Job")
       .def(py::init(&make_job), py::arg("command"), py::arg("input"), py::arg("output"), py::arg("threads"),
-           py::arg("origins"), py::arg("grow"), py::arg("against"), py::arg("rows"))
+           py::arg("sets"), py::arg("origins"), py::arg("grow"), py::arg("against"), py::arg("rows"), py::arg("part"),
+           py::arg("parts"))
       .def("stop", &Job::stop)
       .def("wait", &Job::wait, py::arg("seconds"))
       .def("messages", &Job::messages)

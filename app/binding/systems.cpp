@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -117,6 +118,22 @@ IntegratorOptions exactly(double tolerance) {
   return o;
 }
 
+/// Sums of two counts are below the largest int.
+constexpr int most_periods = 1000000000;
+
+struct Count {
+  const char* name;
+  int value;
+  int least;
+};
+
+void require_counts(std::initializer_list<Count> counts) {
+  for (const Count& count : counts)
+    if (count.value < count.least || count.value > most_periods)
+      throw InputError(std::string(count.name) + " is " + std::to_string(count.value) + ", must be from " +
+                       std::to_string(count.least) + " to " + std::to_string(most_periods));
+}
+
 py::list complex_list(const std::vector<std::complex<double>>& values) {
   py::list list;
   for (const auto& value : values) list.append(value);
@@ -145,6 +162,7 @@ class System {
 
   [[nodiscard]] py::tuple section(const py::object& start, const py::object& p, int transient, int periods,
                                   double tolerance, int longest) const {
+    require_counts({{"transient", transient, 0}, {"periods", periods, 1}, {"longest", longest, 1}});
     std::vector<double> state = finite_vector(start, "start", n_);
     const std::vector<double> values = finite_vector(p, "params", parameters_);
     const double period = period_of(values);
@@ -164,6 +182,7 @@ class System {
 
   [[nodiscard]] py::dict regime(const py::object& start, const py::object& p, int transient, int budget, int longest,
                                 double tolerance) const {
+    require_counts({{"transient", transient, 0}, {"budget", budget, 1}, {"longest", longest, 1}});
     std::vector<double> state = finite_vector(start, "start", n_);
     const std::vector<double> values = finite_vector(p, "params", parameters_);
     const double period = period_of(values);
@@ -208,6 +227,7 @@ class System {
   /// Exponents per unit of time, their half widths, and those of their sum.
   [[nodiscard]] py::tuple exponents(const py::object& start, const py::object& p, int transient, int aligning,
                                     int periods, double tolerance) const {
+    require_counts({{"transient", transient, 0}, {"aligning", aligning, 0}, {"periods", periods, 1}});
     std::vector<double> state = finite_vector(start, "start", n_);
     const std::vector<double> values = finite_vector(p, "params", parameters_);
     const double period = period_of(values);
@@ -238,6 +258,7 @@ class System {
 
   [[nodiscard]] py::dict orbit(const py::object& start, const py::object& p, int transient, int n,
                                double tolerance) const {
+    require_counts({{"transient", transient, 0}, {"period", n, 1}});
     std::vector<double> state = finite_vector(start, "start", n_);
     const std::vector<double> values = finite_vector(p, "params", parameters_);
     const double period = period_of(values);
@@ -277,7 +298,9 @@ class System {
                                   std::size_t most, double tolerance) const {
     std::vector<double> state = finite_vector(start, "start", n_);
     const std::vector<double> values = finite_vector(p, "params", parameters_);
+    require_counts({{"transient", transient, 0}, {"period", n, 1}, {"largest_period", largest_period, 1}});
     if (which >= parameters_) throw InputError("no such parameter");
+    if (!(max_step > 0.0) || !(from < to)) throw InputError("no step, or no range, of the parameter");
     std::vector<analysis::Branch> all;
     std::vector<std::vector<double>> points;
     std::string why_not;

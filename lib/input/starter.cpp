@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <vector>
 
@@ -25,7 +26,7 @@ constexpr double clearance = 0.25;  // in modules
 /// To three digits, as it is typed: 0.3, not 0.30000000000000004.
 double neat(double x) {
   constexpr int digits = 3;
-  return std::stod(short_text(x, digits));
+  return std::strtod(short_text(x, digits).c_str(), nullptr);  // unlike std::stod it has numbers near 0, and infinity
 }
 
 /// Of a gear's root circle.

@@ -79,6 +79,7 @@ refused init
 refused init refused --teeth 21
 refused init refused --teeth 21,x
 refused init refused --teeth 3,28,77
+refused init refused --module 5e-324
 refused init refused --teeth 21,28,90
 grep -q '^init: /stage/catalogue/ring' stderr || fail "told of a file that is not kept: $(<stderr)"
 refused init refused --angles 0,90,180 --planets 4

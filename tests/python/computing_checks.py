@@ -3,7 +3,9 @@
 import copy
 import ctypes
 import gc
+import importlib.util
 import json
+import multiprocessing
 import os
 import pickle
 import signal
@@ -14,6 +16,7 @@ import threading
 import time
 import unittest
 import warnings
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import epicyclic as ep
@@ -108,6 +111,21 @@ class Studies(Folders):
         point = stage().point(value=first["value"], **{**FEW, "start": "cold"})
         self.assertEqual(point["value"], first["value"])
 
+    def test_a_run_from_a_point(self):
+        result = stage().sweep(out=self.work / "a", points=3, **FEW)
+        point = result.near(3.5, direction="down")
+        run = result.run_at(point, recorded_periods=16, exponent_periods=12, spectrum_periods=16, threads=1)
+        self.assertEqual((run.kind, run.points.value[0]), ("run", 3.5))
+        self.assertEqual(run.input["study"]["initial_state"], list(result.section(point)[stage().rhs().names].iloc[-1]))
+        self.assertEqual(result.run_at(int(point.point), exponent_periods=12, spectrum_periods=16).points.value[0], 3.5)
+        with self.assertRaises(ep.InputError) as caught:
+            result.run_at(0, exponent_period=12)
+        problem = caught.exception.problems[0]
+        self.assertEqual((problem.file, problem.pointer, problem.suggestion), ("", "/study/exponent_period", "exponent_periods"))
+        for wrong in (6, -1, None, "0", {}):
+            with self.assertRaises(ep.ResultError):
+                result.run_at(wrong)
+
     def test_gear(self):
         found = stage("tang2020.json").gear()
         self.assertGreater(len(found["quantities"]), 20)
@@ -167,6 +185,61 @@ class Studies(Folders):
             self.assertEqual(left[name], right[name], name)
 
 
+def call(task):
+    """Call a method of a stage with keyword arguments: what processes of a pool are given."""
+    stage, method, keys = task
+    return getattr(stage, method)(**keys)
+
+
+class Workers(Folders):
+    KEYS = {"first": {"points": 3}, "second": {"points": 2}, "transient": "fixed", "transient_periods": 2, "recorded_periods": 8}
+
+    def setUp(self):
+        super().setUp()
+        self.map = stage("tang2020_map.json")
+
+    def tasks(self):
+        """Return the tasks of both parts of a map, and those of single points."""
+        part = {"kind": "map", "of": 2, "out": self.work / "parts", "threads": 1, **self.KEYS}
+        parts = [(self.map, "part", {**part, "number": number}) for number in (1, 2)]
+        point = {**FEW, "parameter": "mesh_frequency_ratio", "start": "cold"}
+        points = [(stage("tang2020.json"), "point", {**point, "value": value}) for value in (2.0, 2.1)]
+        return parts + points
+
+    def check(self, found):
+        self.assertEqual(found[:2], [None, None])
+        self.assertEqual([row["value"] for row in found[2:]], [2.0, 2.1])
+        self.assertEqual(found[2]["kv_sp"], call(self.tasks()[2])["kv_sp"])
+        self.map.map(out=self.work / "parts", **self.KEYS)
+        self.map.map(out=self.work / "whole", **self.KEYS)
+        parts, whole = files_of(self.work / "parts"), files_of(self.work / "whole")
+        for name in ("points.csv", "input.json", "input.resolved.json"):
+            self.assertEqual(parts[name], whole[name], name)
+
+    def test_new_processes(self):
+        pool = ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn"))
+        with pool:
+            self.check(list(pool.map(call, self.tasks())))
+
+    def test_forked_processes_of_one_that_has_computed(self):
+        stage("tang2020.json").point(value=2.0, parameter="mesh_frequency_ratio", **FEW)
+        with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("fork")) as pool:
+            self.check(list(pool.map(call, self.tasks())))
+
+    @unittest.skipUnless(importlib.util.find_spec("distributed"), "dask.distributed is not installed")
+    def test_dask(self):
+        from distributed import Client, LocalCluster
+
+        with LocalCluster(2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
+            self.check(client.gather(client.map(call, self.tasks(), pure=False)))
+
+    def test_parts_that_are_not_there(self):
+        for kind, number, of in (("run", 1, 2), ("map", 0, 2), ("map", 3, 2), ("map", 1.0, 2), ("map", True, 2), ("map", 1, 10001)):
+            with self.assertRaises(ep.InputError):
+                self.map.part(kind, number, of, out=self.work / "none", **self.KEYS)
+        self.assertFalse((self.work / "none").exists())
+
+
 class Stages(unittest.TestCase):
     def test_a_stage_does_not_change(self):
         s = stage("tang2020.json")
@@ -207,6 +280,11 @@ class Stages(unittest.TestCase):
         problem = [p for p in caught.exception.problems if "kind" in p.pointer][0]
         self.assertEqual((problem.file, problem.line), (file.name, 2))
         self.assertIn("sweep", problem.suggestion)
+        with tempfile.NamedTemporaryFile("w", suffix=".json", encoding="utf-8") as file:
+            file.write(300 * "é")
+            file.flush()
+            with self.assertRaisesRegex(ep.InputError, "json:1: "):
+                ep.Stage.load(file.name)
         again = pickle.loads(pickle.dumps(caught.exception))
         self.assertEqual(again.problems, caught.exception.problems)
 
@@ -291,6 +369,36 @@ class Systems(unittest.TestCase):
         self.check_doublings(duffing(0.2))
         self.assertEqual(duffing(0.2, jacobian=False).derivatives, "differences")
         self.check_doublings(duffing(0.2, jacobian=False))
+
+    @unittest.skipUnless(importlib.util.find_spec("numba"), "numba is not installed")
+    def test_doublings_of_functions_of_numba(self):
+        from numba import carray, cfunc, types
+
+        doubles = types.CPointer(types.double)
+        signature = types.void(types.double, doubles, doubles, doubles)
+
+        @cfunc(signature)
+        def f(t, y, p, dydt):
+            dydt[0] = y[1]
+            dydt[1] = p[0] * np.cos(p[2] * t) - p[1] * y[1] + y[0] - y[0] ** 3
+
+        @cfunc(signature)
+        def j(t, y, p, out):
+            rows = carray(out, (2, 2))
+            rows[0, 0], rows[0, 1], rows[1, 0], rows[1, 1] = 0.0, 1.0, 1.0 - 3.0 * y[0] ** 2, -p[1]
+
+        params = {"force": 0.2, "damping": 0.3, "frequency": 1.2}
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # that of a Python function would be one
+            system = ep.System(f, 2, params, lambda p: 2 * np.pi / p[2], jacobian=j)
+            of_address = ep.System(f.address, 2, params, 2 * np.pi / 1.2)
+        wrong = cfunc(types.void(types.double, doubles, doubles))(lambda t, y, p: None)
+        with self.assertRaisesRegex(ep.InputError, "signature"):
+            ep.System(wrong, 2, params, 1.0)
+        self.check_doublings(system)
+        states = [s.section([1.0, 0.0], transient=2, periods=4).states for s in (system, of_address, duffing(0.2))]
+        np.testing.assert_allclose(states[0], states[2], atol=1e-9)
+        np.testing.assert_allclose(states[1], states[2], atol=1e-9)
 
     def test_regimes_and_exponents(self):
         system = duffing(0.2)

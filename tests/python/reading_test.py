@@ -71,6 +71,13 @@ class Tables(unittest.TestCase):
                 self.assertIn(str(result.folder), result._repr_html_())
                 result.verify()
 
+    def test_summaries_are_those_of_the_program(self):
+        names = {"speed": "sweep.md", "run": "summary.md", "branches": "continue.md", "gear": "gear.md"}
+        for name, file in names.items():
+            self.assertEqual(ep.open(RESULTS / name).summary, (RESULTS / name / file).read_text(encoding="utf-8"))
+        with self.assertRaisesRegex(ep.ResultError, "no results in words"):
+            ep.open(RESULTS / "map").summary
+
     def test_results_h5_csv_and_pandas_agree(self):
         for name in KINDS:
             result, again = ep.open(RESULTS / name), ep.open(RESULTS / name)

@@ -62,10 +62,13 @@ class Job:
         input: str,
         output: str,
         threads: int,
+        sets: Sequence[str],
         origins: Sequence[str],
         grow: str,
         against: str,
         rows: int,
+        part: int,
+        parts: int,
     ) -> None: ...
     def stop(self) -> None: ...
     def wait(self, seconds: float) -> bool: ...

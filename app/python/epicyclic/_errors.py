@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import re
+import reprlib
 from typing import Any, Iterable, NamedTuple, Tuple
 
 
@@ -43,6 +44,11 @@ class Problem(NamedTuple):
         return ": ".join(part for part in (place, self.pointer, self.message) if part)
 
 
+def repr_of(value: Any) -> str:
+    """Return a value for a message, shortened: lists in lists may be deep, and arrays large."""
+    return reprlib.repr(value)
+
+
 _MEANT = re.compile(r"; did you mean (?:one of: )?(.*)\?$")
 
 
@@ -68,7 +74,7 @@ class InputError(ValueError):
 
 def _problem(file: str, line: int, pointer: str, message: str) -> Problem:
     meant = _MEANT.search(message)
-    return Problem(file, line, pointer, message, meant.group(1) if meant else "")
+    return Problem(file, line, pointer, message, meant.group(1).replace("'", "") if meant else "")
 
 
 class OutputError(OSError):

@@ -13,7 +13,7 @@ import weakref
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
-from ._errors import OutputError, core
+from ._errors import OutputError, core, repr_of
 from ._results import Result
 from ._results import open as open_folder
 
@@ -41,7 +41,7 @@ class Job:
     command
         Name, such as ``"sweep"``.
     document
-        The study.
+        The study; None for that of ``origins``.
     out
         Folder; None for a temporary one.
     threads
@@ -52,12 +52,16 @@ class Job:
         Folders for the options of that name; ``origins`` are those of ``--from``.
     rows
         Points that are taken as they are computed; after as many the command stops.
+    sets
+        Texts for ``--set``: a JSON pointer, ``=`` and a JSON value.
+    part
+        Number of a part, from 1, and of all parts: the share of the points to compute. None: all, with the results.
     """
 
     def __init__(
         self,
         command: str,
-        document: Dict[str, Any],
+        document: Optional[Dict[str, Any]],
         out: Union[None, str, Path],
         threads: Optional[int],
         progress: Union[None, bool, ProgressFunction] = None,
@@ -65,10 +69,12 @@ class Job:
         grow: Union[None, str, Path] = None,
         against: Union[None, str, Path] = None,
         rows: int = 0,
+        sets: Sequence[str] = (),
+        part: Optional[Tuple[int, int]] = None,
     ) -> None:
         count = own_threads() if threads is None else threads
         if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count <= 4096:
-            raise ValueError(f"threads is {threads!r}, must be an integer from 1 to 4096")
+            raise ValueError(f"threads is {repr_of(threads)}, must be an integer from 1 to 4096")
         module = core()
         self._show = _shown(progress)
         self._scratch = Path(tempfile.mkdtemp(prefix="epicyclic-"))
@@ -76,10 +82,12 @@ class Job:
         self._temporary = out is None
         self.folder = self._scratch / command if out is None else Path(out)
         self._words: List[str] = []
-        study = self._scratch / "input.json"
-        study.write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")
+        study = "" if document is None else str(self._scratch / "input.json")
+        if study:
+            Path(study).write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")
         self._core = module.Job(
-            command, str(study), str(self.folder), count, [str(o) for o in origins], str(grow or ""), str(against or ""), rows
+            command, study, str(self.folder), count, list(sets), [str(o) for o in origins], str(grow or ""),
+            str(against or ""), rows, *(part or (0, 0)),
         )
 
     def __del__(self) -> None:
@@ -104,6 +112,13 @@ class Job:
         for _ in self.rows():
             pass
         return self._finished()
+
+    def wait_for_part(self) -> None:
+        """Wait for the end of a part, which leaves a journal and no results."""
+        for _ in self.rows():
+            pass
+        if self._core.result() != 0:
+            raise OutputError("\n".join(self._words))
 
     def _finished(self) -> Result:
         code = self._core.result()
@@ -165,7 +180,7 @@ def _shown(progress: Union[None, bool, ProgressFunction]) -> Optional[ProgressFu
     if progress is True:
         return _Bar()
     if not callable(progress):
-        raise TypeError(f"progress is {progress!r}, must be a function, True or None")
+        raise TypeError(f"progress is {repr_of(progress)}, must be a function, True or None")
     return progress
 
 

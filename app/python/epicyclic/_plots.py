@@ -66,6 +66,8 @@ def plot(result: Result, quantity: Optional[str], ax: Optional[Any], direction: 
     if ax is None:
         pyplot = needed("matplotlib.pyplot", "a figure")
         _, ax = pyplot.subplots(figsize=(7.5, 5.0), layout="constrained")
+    if not hasattr(ax, "plot"):
+        raise TypeError(f"ax is {type(ax).__name__}, must be Axes of matplotlib")
     drawing(ax)
     _finish(result, ax)
     return ax
@@ -170,9 +172,10 @@ def _sweep(result: Sweep, quantity: Optional[str], ax: Any, direction: Optional[
             rows = np.array([place[n] for n in poincare.columns["point"]], dtype=np.int64)
             chosen = here[rows]
             y = _numbers(result, poincare, quantity)[chosen]
-            # Many points become pixels also in a vector file.
-            ax.plot(x[rows][chosen], y, linestyle="none", marker=".", markersize=2.2, markeredgewidth=0, color=colour,
-                    rasterized=len(y) > 20000, zorder=3 - 0.1 * k)
+            # A coarse grid has larger dots; the second direction has smaller ones, on the first. Many become pixels.
+            size = (2.2 if np.count_nonzero(here) > 150 else 5.0) * (1.0 if k == 0 or direction is not None else 0.6)
+            ax.plot(x[rows][chosen], y, linestyle="none", marker=".", markersize=size, markeredgewidth=0, color=colour,
+                    rasterized=len(y) > 20000, zorder=3 + 0.1 * k)
             ax.plot([], [], linestyle="none", marker=".", markersize=8, color=colour, label=word)
         else:
             y = _numbers(result, points, quantity)

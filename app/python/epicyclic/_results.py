@@ -11,7 +11,7 @@ from typing import Any, Dict, List, Optional, Tuple, Type, Union
 
 import numpy as np
 
-from ._errors import ResultError, needed
+from ._errors import InputError, ResultError, needed, repr_of
 from ._tables import Array, Hdf5, Table, csv_header, read_csv
 
 _SPEEDS = {"rpm": "sun_speed_rpm", "Hz": "mesh_frequency_Hz"}
@@ -142,6 +142,22 @@ class Result:
         return max(numbers, default=0)
 
     @property
+    def summary(self) -> str:
+        """The results in words, as the program wrote them: ``sweep.md``, ``continue.md`` and so on.
+
+        Of a sweep: ranges of regimes, changes, coexisting attractors, largest forces, and what is not certain.
+
+        Raises
+        ------
+        ResultError
+            If the program writes no such file for this kind.
+        """
+        for name in (f"{self.kind}.md", "summary.md"):
+            if (self.folder / name).is_file():
+                return (self.folder / name).read_text(encoding="utf-8")
+        raise ResultError(f"{self.folder}: a {self.kind} has no results in words")
+
+    @property
     def warnings(self) -> List[str]:
         """What a reader should know before the numbers are used: a sentence each."""
         said: List[str] = []
@@ -230,7 +246,11 @@ class Result:
         values = table.columns[column]
         if values.dtype.kind not in "if":
             raise ResultError(f"{self.folder}: column {column} has texts, not numbers")
-        distance = np.abs(values.astype(float) - float(value))
+        try:
+            value = float(value)
+        except (OverflowError, TypeError, ValueError):
+            raise ResultError(f"{self.folder}: {repr_of(value)} is no number to be near to") from None
+        distance = np.abs(values.astype(float) - value)
         if direction is not None:
             if "direction" not in table.columns:
                 raise ResultError(f"{self.folder}: points have no direction")
@@ -278,7 +298,7 @@ class Result:
         ResultError
             If the folder has no Poincaré points, or no such point.
         """
-        number = int(point) if isinstance(point, (int, np.integer)) else int(point["point"])
+        (number,) = (int(point),) if isinstance(point, (int, np.integer)) else self._of_row(point, "point")
         points = self._table("points").columns["point"] if "points" in self.tables else np.array([])
         if number not in points:
             raise ResultError(f"{self.folder}: there is no point {number}; numbers go from 0 to {len(points) - 1}")
@@ -288,6 +308,52 @@ class Result:
         if "point" in table.columns:
             table = table.rows(np.flatnonzero(table.columns["point"] == number))
         return table.frame()
+
+    def run_at(
+        self, point: Any, *, out: Union[None, str, Path] = None, threads: Optional[int] = None, progress: Any = None,
+        **keys: Any,
+    ) -> Run:
+        """Compute one point again with all results, as ``epicyclic run --from``.
+
+        The initial state is that of the point, so the response is on the same attractor. Stage, model and integrator are
+        those of this folder. The package needs its compiled module.
+
+        Parameters
+        ----------
+        point
+            Number of the point: column ``point`` of ``points``; or a row of ``points``, as ``near`` returns it.
+        out, threads, progress
+            As of ``Stage.sweep``.
+        **keys
+            Keys of the study of kind ``run``, such as ``exponent_periods=2000``.
+
+        Raises
+        ------
+        ResultError
+            If there is no such point, or no point of this kind has a state.
+        """
+        from ._jobs import Job
+        from ._stage import assignment, without_file
+
+        if self.kind not in ("sweep", "map", "basins", "run"):
+            raise ResultError(f"{self.folder}: points of a {self.kind} have no state to start from")
+        (number,) = (int(point),) if isinstance(point, (int, np.integer)) else self._of_row(point, "point")
+        if not 0 <= number < len(self._table("points")):
+            raise ResultError(f"{self.folder}: there is no point {number} of {len(self._table('points'))}")
+        sets = [assignment(f"/study/{key[:-1] if key.endswith('_') else key}", value) for key, value in keys.items()]
+        try:
+            found = Job("run", None, out, threads, progress, origins=[f"{self.folder}:{number}"], sets=sets).wait()
+        except InputError as error:
+            without_file(error)
+        assert isinstance(found, Run)
+        return found
+
+    def _of_row(self, row: Any, *names: str) -> Tuple[int, ...]:
+        """Return numbers in a row of ``points``."""
+        try:
+            return tuple(int(row[name]) for name in names)
+        except (IndexError, KeyError, OverflowError, TypeError, ValueError):
+            raise ResultError(f"{self.folder}: {repr_of(row)} is no number of a point and no row of points") from None
 
     # -- xarray
 
@@ -584,7 +650,7 @@ class Branches(Result):
         """
         points = self._table("branch").columns
         if not isinstance(point, (int, np.integer)):
-            branch, orbit = int(point["branch"]), int(point["index"])
+            branch, orbit = self._of_row(point, "branch", "index")
         else:
             number = int(point)
             if not 0 <= number < len(points["branch"]):
@@ -715,8 +781,12 @@ def open(folder: Union[str, Path]) -> Result:  # noqa: A001
         If it is no folder of this program, is not finished, or is damaged.
     """
     path = Path(folder)
-    if not path.is_dir():
+    try:
+        known = path.is_dir()
         reason = "is a file, not a result folder" if path.exists() else "no such folder"
+    except OSError as error:  # such as a name that is too long
+        raise ResultError(f"{path}: {error.strerror}") from error
+    if not known:
         raise ResultError(f"{path}: {reason}")
     if not (path / "run.json").is_file():
         raise ResultError(f"{path}: is not a result folder of epicyclic: it has no run.json")

@@ -9,7 +9,9 @@ import json
 from pathlib import Path
 from typing import Any, Dict, Iterator, List, Mapping, NoReturn, Optional, Sequence, Tuple, Union, cast
 
-from ._errors import InputError, core
+import numpy as np
+
+from ._errors import InputError, core, repr_of
 from ._jobs import Job, ProgressFunction
 from ._results import Basins, Branches, Crosscheck, Gear, Map, Run, Sweep, Tolerance
 
@@ -24,6 +26,10 @@ _NAME = "python"
 
 #: More points than any study has.
 _ALL = 2**62
+
+#: Levels and elements of a value of an input: more than any has.
+_DEEPEST = 50
+_LARGEST = 10**6
 
 
 class Stage:
@@ -105,6 +111,8 @@ class Stage:
         name
             Name of the stage.
         """
+        if not isinstance(name, str):
+            raise TypeError(f"name is {repr_of(name)}, must be a text")
         drawing = core().Drawing()
         drawing.teeth = [int(z) for z in _numbers(teeth, "teeth")]
         if len(drawing.teeth) not in (2, 3):
@@ -137,13 +145,15 @@ class Stage:
         InputError
             If a pointer is not known, or the stage is not valid with these values.
         """
+        if not isinstance(values, Mapping):
+            raise TypeError(f"the values are {type(values).__name__}, must be a mapping of JSON pointers to values")
         document = self.to_dict()
         for pointer in values:
             if not isinstance(pointer, str):
-                raise TypeError(f"{pointer!r} is no JSON pointer")
+                raise TypeError(f"{repr_of(pointer)} is no JSON pointer")
         if "stage" not in document and any(not p.startswith("/stage") for p in values):
             document = {"stage": document, "study": {"kind": "run"}}
-        return Stage._of(_parsed(document, [f"{p}={json.dumps(_plain(v))}" for p, v in values.items()]).resolved)
+        return Stage._of(_parsed(document, [assignment(p, v) for p, v in values.items()]).resolved)
 
     def to_dict(self) -> Document:
         """Return the complete input with all defaults, and the origin of each value."""
@@ -299,6 +309,36 @@ class Stage:
         finally:
             rows.close()
 
+    def part(
+        self, kind: str, number: int, of: int, *, out: Union[str, Path], threads: Optional[int] = None, **keys: Any
+    ) -> None:
+        """Compute a part of a sweep, map or basins, as ``--part NUMBER/OF`` of the command.
+
+        Other processes compute the other parts, at the same time or later. Afterwards ``sweep``, ``map`` or ``basins``
+        with the same folder and keys computes what is missing, and gives the results: those of one process.
+
+        Parameters
+        ----------
+        kind
+            ``"sweep"``, ``"map"`` or ``"basins"``.
+        number, of
+            Number of the part, from 1, and of all parts.
+        out
+            Folder of all parts.
+        threads, **keys
+            As of ``sweep``.
+
+        Raises
+        ------
+        OutputError
+            If another process computes this part, or as of ``sweep``.
+        """
+        if kind not in ("sweep", "map", "basins"):
+            raise InputError(f"a study of kind {repr_of(kind)} has no parts; those of sweep, map and basins have")
+        if not all(isinstance(k, int) and not isinstance(k, bool) for k in (number, of)) or not 1 <= number <= of <= 10000:
+            raise InputError(f"part {repr_of(number)} of {repr_of(of)}: must be integers, 1 <= number <= of <= 10000")
+        self._job(kind, out, threads, None, keys, part=(number, of)).wait_for_part()
+
     def map(
         self,
         *,
@@ -407,15 +447,20 @@ class Stage:
         return f"<Stage {', '.join(parts)}>"
 
 
+def assignment(pointer: str, value: Any) -> str:
+    """Return the text of ``--set``."""
+    return f"{pointer}={json.dumps(_plain(value))}"
+
+
 def _parsed(document: Document, sets: Sequence[str] = ()) -> Any:
     """Read a document of Python."""
     try:
         return core().Input.parse(json.dumps(document), _NAME, list(sets))
     except InputError as error:
-        _raise_without_file(error)
+        without_file(error)
 
 
-def _raise_without_file(error: InputError) -> NoReturn:
+def without_file(error: InputError) -> NoReturn:
     """Raise the error with problems that name no file: there is none."""
     kept = [p._replace(file="", line=0) for p in error.problems]
     raise InputError("\n".join(p.text() for p in kept) if kept else str(error), kept) from None
@@ -426,22 +471,29 @@ def _numbers(values: Any, name: str) -> List[float]:
     try:
         numbers = [float(value) for value in values]
     except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name} is {values!r}, which is no list of numbers") from None
+        raise InputError(f"{name} is {repr_of(values)}, which is no list of numbers") from None
     if name in ("teeth", "planets") and not all(abs(z) < 10**6 and z == int(z) for z in numbers):
-        raise InputError(f"{name} is {values!r}, must be integers")
+        raise InputError(f"{name} is {repr_of(values)}, must be integers")
     if not all(abs(x) < float("inf") for x in numbers):
         raise InputError(f"{name} has numbers that are not finite")
     return numbers
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: Any, depth: int = 0) -> Any:
     """Return a value as JSON has it: arrays as lists, numbers of numpy as numbers."""
+    if depth > _DEEPEST:
+        raise InputError(f"a value has more than {_DEEPEST} levels of lists and mappings")
     if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if hasattr(value, "tolist"):
-        return _plain(value.tolist())
+        return {str(key): _plain(item, depth + 1) for key, item in value.items()}
+    if isinstance(value, np.ndarray) and value.size > _LARGEST:
+        raise InputError(f"an array has the shape {value.shape}, must have at most {_LARGEST} elements")
+    if isinstance(value, (np.ndarray, np.generic)):
+        plain = value.tolist()
+        if isinstance(plain, (np.ndarray, np.generic)):  # a type that Python does not have
+            raise TypeError(f"{repr_of(value)} is no value of an input: {type(value).__name__}")
+        return _plain(plain, depth + 1)
     if isinstance(value, (list, tuple)):
-        return [_plain(item) for item in value]
+        return [_plain(item, depth + 1) for item in value]
     if isinstance(value, Path):
         return str(value)
     if value is None or isinstance(value, (str, bool, int)):
@@ -450,7 +502,7 @@ def _plain(value: Any) -> Any:
         if value != value or value in (float("inf"), float("-inf")):
             raise InputError(f"{value} is not a finite number")
         return value
-    raise TypeError(f"{value!r} is no value of an input: {type(value).__name__}")
+    raise TypeError(f"{repr_of(value)} is no value of an input: {type(value).__name__}")
 
 
 def _given(values: Document) -> Document:

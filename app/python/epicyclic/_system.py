@@ -10,7 +10,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 import numpy.typing as npt
 
-from ._errors import InputError, core
+from ._errors import InputError, core, repr_of
 
 Array = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
@@ -192,7 +192,7 @@ class System:
 
     Notes
     -----
-    The library cannot check the signature of a C function. A wrong one ends the process.
+    The signature of a ``numba.cfunc`` is checked. That of any other C function cannot be: a wrong one ends the process.
     """
 
     def __init__(
@@ -204,13 +204,13 @@ class System:
         jacobian: Any = None,
     ) -> None:
         if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or not 1 <= n <= 10000:
-            raise InputError(f"n is {n!r}, must be an integer from 1 to 10000")
+            raise InputError(f"n is {repr_of(n)}, must be an integer from 1 to 10000")
         if not callable(period):
             period = _finite(period, "period")
             if period <= 0:
                 raise InputError(f"period is {period}, must be > 0")
         if not isinstance(params, Mapping):
-            raise InputError(f"params is {params!r}, must be a mapping of names to numbers")
+            raise InputError(f"params is {repr_of(params)}, must be a mapping of names to numbers")
         self.n = int(n)
         self.params: Dict[str, float] = {str(k): _finite(v, f"params[{k!r}]") for k, v in params.items()}
         self.period = period
@@ -408,15 +408,18 @@ class System:
             If there is no orbit to start from.
         """
         if parameter not in self.params:
-            raise InputError(f"no parameter {parameter!r}; there are: {', '.join(self.params)}")
+            raise InputError(f"no parameter {repr_of(parameter)}; there are: {', '.join(self.params)}")
         low, high = (_finite(bound, "bounds") for bound in bounds)
+        step = _finite(max_step, "max_step")
+        if step <= 0:
+            raise InputError(f"max_step is {step}, must be > 0")
         values = self._values(params)
         which = list(self.params).index(parameter)
         if not low <= values[which] <= high or low >= high:
             raise InputError(f"{parameter} is {values[which]}, must be within the bounds {low} and {high}")
         found = self._core.branches(
             start, values, which, low, high, _count(transient, "transient", 0), _count(period, "period", 1),
-            _count(largest_period, "largest_period", 1), float(max_step), _count(most, "most", 1), tolerance,
+            _count(largest_period, "largest_period", 1), step, _count(most, "most", 1), tolerance,
         )
         return [
             Branch(
@@ -433,7 +436,7 @@ class System:
     def _values(self, other: Mapping[str, float]) -> Array:
         unknown = [name for name in other if name not in self.params]
         if unknown:
-            raise InputError(f"no parameter {unknown[0]!r}; there are: {', '.join(self.params)}")
+            raise InputError(f"no parameter {repr_of(unknown[0])}; there are: {', '.join(self.params)}")
         both = {**self.params, **{k: _finite(v, k) for k, v in other.items()}}
         return np.array(list(both.values()), dtype=np.float64)
 
@@ -441,16 +444,20 @@ class System:
 def _finite(value: Any, name: str) -> float:
     try:
         number = float(value)
-    except (TypeError, ValueError):
-        raise InputError(f"{name} is {value!r}, must be a number") from None
+    except (OverflowError, TypeError, ValueError):
+        raise InputError(f"{name} is {repr_of(value)}, must be a number") from None
     if not np.isfinite(number):
         raise InputError(f"{name} is {number}, must be finite")
     return number
 
 
+#: Largest number of periods.
+_MOST = 10**9
+
+
 def _count(value: Any, name: str, least: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value < 2**31:
-        raise InputError(f"{name} is {value!r}, must be an integer >= {least}")
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= _MOST:
+        raise InputError(f"{name} is {repr_of(value)}, must be an integer from {least} to {_MOST}")
     return int(value)
 
 
@@ -469,9 +476,16 @@ def _is_code(address: int) -> bool:
     return False
 
 
+#: Of a function of numba.
+_SIGNATURE = "(float64, float64*, float64*, float64*) -> none"
+
+
 def _function(f: Any, name: str) -> Tuple[int, Optional[Any]]:
     """Return the address of a C function and None, or 0 and a Python function."""
     address = getattr(f, "address", None)  # numba
+    signature = getattr(f, "_sig", None)
+    if signature is not None and str(signature) != _SIGNATURE:
+        raise InputError(f"{name} has the signature {signature}, must have {_SIGNATURE}")
     if isinstance(f, getattr(ctypes, "_CFuncPtr")):
         address = ctypes.cast(f, ctypes.c_void_p).value
     elif isinstance(f, int) and not isinstance(f, bool):
@@ -482,4 +496,4 @@ def _function(f: Any, name: str) -> Tuple[int, Optional[Any]]:
         return address, None
     if callable(f):
         return 0, f
-    raise InputError(f"{name} is {f!r}, must be a function, or the address of one")
+    raise InputError(f"{name} is {repr_of(f)}, must be a function, or the address of one")
