@@ -49,6 +49,11 @@ def repr_of(value: Any) -> str:
     return reprlib.repr(value)
 
 
+def word_of(value: Any) -> str:
+    """Return a word for a message; what is no text as ``repr_of`` shows it."""
+    return value if isinstance(value, str) else repr_of(value)
+
+
 _MEANT = re.compile(r"; did you mean (?:one of: )?(.*)\?$")
 
 

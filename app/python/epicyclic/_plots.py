@@ -6,7 +6,7 @@ from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
-from ._errors import ResultError, needed
+from ._errors import ResultError, needed, word_of
 from ._results import Basins, Branches, Crosscheck, Gear, Map, Result, Run, Sweep, Tolerance
 from ._tables import Array, Table
 
@@ -142,10 +142,10 @@ def _label_abscissa(result: Result, ax: Any) -> None:
 
 def _numbers(result: Result, table: Table, quantity: str) -> Array:
     if quantity not in table.columns:
-        raise ResultError(f"{result.folder}: no column {quantity} to draw; there are {', '.join(table.columns)}")
+        raise ResultError(f"{result.folder}: no column {word_of(quantity)} to draw; there are {', '.join(table.columns)}")
     values = table.columns[quantity]
     if values.dtype.kind not in "if":
-        raise ResultError(f"{result.folder}: column {quantity} has texts, not numbers")
+        raise ResultError(f"{result.folder}: column {word_of(quantity)} has texts, not numbers")
     return values.astype(float)
 
 
@@ -161,7 +161,7 @@ def _sweep(result: Sweep, quantity: Optional[str], ax: Any, direction: Optional[
     x = points.columns[_abscissa(result)].astype(float)
     directions = result.directions
     if direction is not None and direction not in directions:
-        raise ResultError(f"{result.folder}: has no direction {direction}; it has {', '.join(directions)}")
+        raise ResultError(f"{result.folder}: has no direction {word_of(direction)}; it has {', '.join(directions)}")
     place = {number: k for k, number in enumerate(points.columns["point"])}
     for k, word in enumerate(directions):
         if direction is not None and word != direction:
@@ -211,7 +211,7 @@ def _cells(result: Map, quantity: Optional[str], ax: Any, direction: Optional[st
     if direction is None:
         direction = directions[0]
     if direction not in directions:
-        raise ResultError(f"{result.folder}: has no direction {direction}; it has {', '.join(directions)}")
+        raise ResultError(f"{result.folder}: has no direction {word_of(direction)}; it has {', '.join(directions)}")
     part = table.rows(np.flatnonzero(table.columns["direction"] == direction))
     first, second = np.unique(part.columns["value"]), np.unique(part.columns["second_value"])
     row = np.searchsorted(second, part.columns["second_value"])

@@ -11,7 +11,7 @@ from typing import Any, Dict, List, Optional, Tuple, Type, Union
 
 import numpy as np
 
-from ._errors import InputError, ResultError, needed, repr_of
+from ._errors import InputError, ResultError, needed, repr_of, word_of
 from ._tables import Array, Hdf5, Table, csv_header, read_csv
 
 _SPEEDS = {"rpm": "sun_speed_rpm", "Hz": "mesh_frequency_Hz"}
@@ -86,7 +86,7 @@ class Result:
         if name not in self._read:
             file = self.folder / f"{name}.csv"
             if name not in self.tables:
-                raise ResultError(f"{self.folder}: has no table {name}; it has {', '.join(self.tables) or 'none'}")
+                raise ResultError(f"{self.folder}: has no table {word_of(name)}; it has {', '.join(self.tables) or 'none'}")
             header = csv_header(file)
             group = self._points[1] if name == self._points[0] else name
             found = None if name in self._csv_only else self._hdf5.table(group, header)
@@ -258,7 +258,7 @@ class Result:
         if not np.any(np.isfinite(distance)):
             raise ResultError(
                 f"{self.folder}: no point has a known {column}"
-                + ("" if direction is None else f" in direction {direction}")
+                + ("" if direction is None else f" in direction {word_of(direction)}")
             )
         known = np.unique(values.astype(float)[np.isfinite(distance)])
         spacing = (known[-1] - known[0]) / max(known.size - 1, 1)
@@ -276,7 +276,7 @@ class Result:
             by = self.parameter if self.parameter in columns else "value"
         by = _SPEEDS.get(by or "value", by or "value")
         if by not in columns:
-            raise ResultError(f"{self.folder}: points have no column {by}")
+            raise ResultError(f"{self.folder}: points have no column {word_of(by)}")
         return by
 
     def section(self, point: Any) -> Any:
