@@ -332,7 +332,7 @@ std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder,
     constexpr int height_each = 620;
     const figures::FigureCanvas canvas{
         1800, figure.panels.size() == 1 ? height_alone : height_each * static_cast<int>(figure.panels.size())};
-    const std::string words = figure.title.empty() ? title : figures::verbatim_text(figure.title) + ": " + title;
+    const std::string words = figures::verbatim_text(figure.title.empty() ? title : figure.title + ": " + title);
     drawn.push_back({folder / (figure.name + ".png"),
                      sketch.draw(folder, {words, parameter_label(parameter), ""}, x.widened(edge), {}, {}, canvas)});
   }
