@@ -646,7 +646,7 @@ function torusNote(table, row) {
     'p',
     { class: 'hint torus' },
     rich(
-      'On a torus λ_1 is 0, but a finite average approaches it slowly: the 95 % intervals of 27 of 140 tori exclude 0 ',
+      'On a torus λ_1 is 0, but a finite average approaches it slowly, so that its 95 % interval may exclude 0 ',
     ),
     '(docs/reference/regimes.md).',
   );

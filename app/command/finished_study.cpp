@@ -266,12 +266,14 @@ namespace {
 /// needed: "the run at mesh_frequency_ratio = 0.885, sun 6000 rpm, period 1".
 std::string point_words(const FinishedStudy& from, const studies::PointSummary& r) {
   const auto varied = input::varied_parameters(from.input().study);
-  std::string words = fmt::format("point {}", r.point.index);
-  if (from.input().study.kind() == "run") {
-    const input::Study& study = from.input().study;
-    words = fmt::format("the run at {} = {}", studies::speed_parameter, short_text(study.mesh_frequency_ratio, 9));
+  const input::Study& study = from.input().study;
+  std::string words;
+  if (study.kind() == "run") {
     const double mesh_frequency = study.mesh_frequency_ratio * input::time_scale(from.input());
-    words += ", " + reports::sun_speed_words(study.stage, mesh_frequency, 5);
+    words = fmt::format("the run at {} = {}, {}", studies::speed_parameter, short_text(study.mesh_frequency_ratio, 9),
+                        reports::sun_speed_words(study.stage, mesh_frequency, 5));
+  } else {
+    words = fmt::format("point {}", r.point.index);
   }
   for (std::size_t k = 0; k < varied.size(); ++k) {
     words += fmt::format("{}{} = {}", k == 0 ? fmt::format(" ({}, ", store::direction_word(r.point.direction)) : ", ",

@@ -39,10 +39,10 @@ RecordingOptions screening_recording(const ClaimsOptions& options, const Screeni
 
 /// Does a condition read the largest Lyapunov exponent?
 bool needs_exponents(const ClaimsOptions& options) {
-  return std::ranges::any_of(options.claims, [](const Claim& claim) {
-    return std::ranges::any_of(claim.conditions, [](const Condition& c) { return c.quantity == "lyapunov_max"; }) ||
-           std::ranges::any_of(claim.as_printed, [](const Condition& c) { return c.quantity == "lyapunov_max"; });
-  });
+  const auto any = [](const std::vector<Condition>& conditions) {
+    return std::ranges::find(conditions, "lyapunov_max", &Condition::quantity) != conditions.end();
+  };
+  return std::ranges::any_of(options.claims, [&](const Claim& c) { return any(c.conditions) || any(c.as_printed); });
 }
 
 /// Is there a condition on the sweep that multipliers can lead to?
@@ -95,9 +95,11 @@ void screen(const ClaimsOptions& options, const Glance& glance, const SweepModel
     results[k].point.value = cells[k].second;
     record[cells[k].first->name].points.push_back(claim_point(results[k], recording, Depth::screening));
   }
-  if (glance.regime_cost == SearchLead::dots)
-    for (const ClaimSweep* sweep : sweeps)
-      add_dots(record[sweep->name], options.printed, recording.recurrence_tolerance);
+  for (const ClaimSweep* sweep : sweeps) {
+    ClaimSeries& series = record[sweep->name];
+    if (glance.regime_cost == SearchLead::dots) add_dots(series, options.printed, recording.recurrence_tolerance);
+    series = read_as(glance.reading, std::move(series), options);
+  }
   if (glance.regime_cost != SearchLead::multipliers) return;
   for (const ClaimSweep* sweep : sweeps) {
     if (!needs_multipliers(options, *sweep)) continue;
@@ -134,7 +136,6 @@ std::vector<const ClaimSweep*> sweeps_spoken_of(const ClaimsOptions& options) {
 }
 
 /// Judges the claims whose sweeps are all there and that have not been judged.
-/// @param record  of read_as()
 void judge_known(const ClaimsOptions& options, const ClaimRecord& record, Reading reading, Evaluation& evaluation) {
   for (std::size_t k = 0; k < options.claims.size(); ++k) {
     const Claim& claim = options.claims[k];
@@ -165,7 +166,7 @@ Evaluation evaluate(const ClaimsOptions& options, const Glance& glance, const Sw
     std::ranges::copy_if(spoken_of, std::back_inserter(sweeps),
                          [&](const auto* s) { return s->screening_round == round; });
     screen(options, glance, models, sweeps, thread, stop, record);
-    judge_known(options, read_as(glance.reading, record, options), glance.reading, evaluation);
+    judge_known(options, record, glance.reading, evaluation);
   }
   return evaluation;
 }
@@ -185,10 +186,10 @@ Evaluation evaluate_whole(const ClaimsOptions& options, const integrate::Integra
     const std::vector<PointResult> points =
         run_sweep_in_memory(plan, whole.recording, integrator, model_at, std::move(run));
     if (points.size() < plan.points.size()) throw EvaluationStopped();
-    record[sweep->name] = claim_series(points_in_memory(points), options.recording);
+    record[sweep->name] = read_as(reading, claim_series(points_in_memory(points), options.recording), options);
   }
   Evaluation evaluation = unknown(options);
-  judge_known(options, read_as(reading, std::move(record), options), reading, evaluation);
+  judge_known(options, record, reading, evaluation);
   return evaluation;
 }
 

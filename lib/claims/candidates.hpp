@@ -80,7 +80,7 @@ using Evaluator = std::function<Evaluation(const Question& question)>;
                                      const integrate::IntegratorOptions& integrator, CandidateModels models,
                                      const std::atomic<bool>* stop);
 
-/// The record of some sweeps by a screening, by evidence.
+/// The record of some sweeps by a screening, in its reading.
 /// @throws EvaluationStopped
 void screen(const ClaimsOptions& options, const Glance& glance, const SweepModels& models,
             const std::vector<const ClaimSweep*>& sweeps, std::size_t thread, const std::atomic<bool>* stop,

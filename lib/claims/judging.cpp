@@ -163,8 +163,7 @@ ClaimPoint claim_point(const PointResult& result, const RecordingOptions& record
                       result.meshes.dynamic_factor(result.meshes.ring_planet),
                       result.meshes.largest_share()};
   const auto sorted = [](const analysis::PoincareSection& section) {
-    std::vector<double> points;
-    for (const auto& state : section.states) points.push_back(state);
+    std::vector<double> points = section.states;
     std::ranges::sort(points);
     return points;
   };
@@ -239,11 +238,9 @@ ClaimSeries as_printed(ClaimSeries series, const PrintedDots& ink, double recurr
   return series;
 }
 
-ClaimRecord read_as(Reading reading, ClaimRecord record, const ClaimsOptions& options) {
-  if (reading == Reading::evidence) return record;
-  for (auto& [name, series] : record)
-    series = as_printed(std::move(series), options.printed, options.recording.recurrence_tolerance);
-  return record;
+ClaimSeries read_as(Reading reading, ClaimSeries series, const ClaimsOptions& options) {
+  if (reading == Reading::evidence) return series;
+  return as_printed(std::move(series), options.printed, options.recording.recurrence_tolerance);
 }
 
 namespace {

@@ -103,8 +103,8 @@ void add_dots(ClaimSeries& series, const PrintedDots& ink, double recurrence_tol
 /// Series by the names of the sweeps.
 using ClaimRecord = std::map<std::string, ClaimSeries, std::less<>>;
 
-/// The record as a reading has it; by evidence it is the record itself.
-[[nodiscard]] ClaimRecord read_as(Reading reading, ClaimRecord record, const ClaimsOptions& options);
+/// A series as a reading has it; by evidence it is the series itself.
+[[nodiscard]] ClaimSeries read_as(Reading reading, ClaimSeries series, const ClaimsOptions& options);
 
 /// Name for points that are not `converged`, in the texts of outcomes.
 inline constexpr std::string_view not_converged = "not converged";
@@ -128,7 +128,7 @@ struct ClaimOutcome {
   bool inert = false;  ///< nothing that it depends on changes along its sweeps, by symmetry, say
 };
 
-/// @param record  of read_as()
+/// @param record  of series of read_as()
 [[nodiscard]] ClaimOutcome judge(const Claim& claim, const ClaimRecord& record, Reading reading = Reading::evidence);
 
 /// Names of the sweeps of a claim.

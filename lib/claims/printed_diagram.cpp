@@ -83,7 +83,7 @@ std::optional<double> DotColumn::lacks(std::string_view word) const {
   if (word.starts_with("not ")) return std::nullopt;
   const int n = period_of_word(word);
   if (n < 1 || n > static_cast<int>(heights_.size())) return std::nullopt;
-  return std::max(0.0, lacks_of_period(n));
+  return lacks_of_period(n);
 }
 
 }  // namespace epicyclic::claims

@@ -68,11 +68,21 @@ std::size_t Scorecard::holding_inert() const {
       std::ranges::count_if(scored.front().outcomes, [](const ClaimOutcome& o) { return o.holds && o.inert; }));
 }
 
+namespace {
+
+ClaimRecord read_all(Reading reading, const ClaimRecord& record, const ClaimsOptions& options) {
+  ClaimRecord all;
+  for (const auto& [name, series] : record) all[name] = read_as(reading, series, options);
+  return all;
+}
+
+}  // namespace
+
 Scorecard score(std::string name, const ClaimsOptions& options, const std::vector<ClaimRecord>& records) {
   Scorecard card{std::move(name), options, {}, {}};
   for (const Reading reading : options.readings)
     for (std::size_t k = 0; k < records.size(); ++k) {
-      const ClaimRecord record = read_as(reading, records[k], options);
+      const ClaimRecord record = read_all(reading, records[k], options);
       ScoredStart scored{options.starts[k], reading, {}};
       for (const Claim& claim : options.claims) scored.outcomes.push_back(judge(claim, record, reading));
       card.scored.push_back(std::move(scored));
@@ -81,7 +91,7 @@ Scorecard score(std::string name, const ClaimsOptions& options, const std::vecto
   ClaimsOptions other = options;
   for (const double dot : options.printed.other_dots) {
     other.printed.dot = dot;
-    const ClaimRecord record = read_as(Reading::printed, records.front(), other);
+    const ClaimRecord record = read_all(Reading::printed, records.front(), other);
     ScoredDots& scored = card.other_dots.emplace_back(ScoredDots{dot, {}});
     for (const Claim& claim : options.claims)
       scored.holds.push_back(judge(claim, record, Reading::printed).holds ? 1 : 0);

@@ -29,6 +29,8 @@ struct ReversedRows {
 
 }  // namespace
 
+bool is_mirrored(const Stage& stage) { return stage.load.torque_Nm.value_or(1.0) < 0.0; }
+
 StiffnessCurve reversed(const StiffnessCurve& curve) {
   StiffnessCurve r = curve;
   const ReversedRows rows(curve.phase);

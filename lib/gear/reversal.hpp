@@ -17,6 +17,9 @@
 
 namespace epicyclic::gear {
 
+/// Are the other flanks loaded, so that the stage is the mirror image of its data?
+[[nodiscard]] bool is_mirrored(const Stage& stage);
+
 [[nodiscard]] StiffnessCurve reversed(const StiffnessCurve& curve);
 [[nodiscard]] FrictionTable reversed(const FrictionTable& table);
 

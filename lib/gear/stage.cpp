@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "gear/messages.hpp"
+#include "gear/reversal.hpp"
 
 namespace epicyclic::gear {
 
@@ -264,7 +265,7 @@ std::vector<double> Stage::planet_angles_deg() const {
 
 std::vector<double> Stage::angles_along_torque_deg() const {
   std::vector<double> angles = planet_angles_deg();
-  if (load.torque_Nm.value_or(1.0) < 0.0)
+  if (is_mirrored(*this))
     for (double& angle : angles) angle = -angle;
   return angles;
 }

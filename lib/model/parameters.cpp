@@ -140,7 +140,7 @@ std::shared_ptr<const FrictionTrack> make_track(const gear::Friction& friction, 
 template <std::size_t N>
 void add_pin_errors(Parameters<double, N>& p, const gear::Stage& stage, const Scales& scales) {
   const gear::PressureAngles alpha = gear::pressure_angles(stage);
-  const double along_torque = stage.load.torque_Nm.value_or(1.0) < 0.0 ? -1.0 : 1.0;
+  const double along_torque = gear::is_mirrored(stage) ? -1.0 : 1.0;
   const auto add = [&](const std::optional<std::vector<double>>& errors_um, double to_sun, double to_ring) {
     if (!errors_um) return;
     for (std::size_t i = 0; i < N; ++i) {

@@ -14,6 +14,7 @@
 #include "core/errors.hpp"
 #include "gear/bearing.hpp"
 #include "gear/kinematics.hpp"
+#include "gear/reversal.hpp"
 #include "input/estimates.hpp"
 #include "reports/markdown.hpp"
 
@@ -375,7 +376,7 @@ std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ra
 }
 
 std::string drive_words(const gear::Stage& stage) {
-  const bool negative = stage.load.torque_Nm.value_or(1.0) < 0.0;
+  const bool negative = gear::is_mirrored(stage);
   if (!stage.runs_backward() && !negative) return {};
   const bool is_star = stage.boundary == gear::Boundary::star;
   const bool by_carrier = stage.driver == gear::Driver::carrier;

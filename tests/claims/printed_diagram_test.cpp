@@ -186,11 +186,11 @@ TEST(PrintedDiagrams, MeetAClaimByWhatTheirReaderAccepts) {
   claim.as_printed = {any_cloud};
   ClaimsOptions options;
   const ClaimRecord evidence = {{"s", series({{0.0}, cloud(), {4.0}})}};
-  const ClaimRecord printed = read_as(Reading::printed, evidence, options);
+  const ClaimRecord printed = {{"s", read_as(Reading::printed, evidence.at("s"), options)}};
   EXPECT_FALSE(judge(claim, evidence, Reading::evidence).holds);
   EXPECT_FALSE(judge(claim, printed, Reading::evidence).holds);
   EXPECT_TRUE(judge(claim, printed, Reading::printed).holds);
-  EXPECT_TRUE(read_as(Reading::evidence, evidence, options).at("s").points[0].response.is("quasiperiodic"));
+  EXPECT_TRUE(read_as(Reading::evidence, evidence.at("s"), options).points[0].response.is("quasiperiodic"));
   claim.as_printed.clear();
   EXPECT_FALSE(judge(claim, printed, Reading::printed).holds);
 }

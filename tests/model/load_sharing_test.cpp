@@ -7,7 +7,7 @@
 //   F_i = F_0 - k (e_i - P e_i) ,  1/k = 1/k_sp + 1/k_rp + (2 + 2 cos(alpha_sp + alpha_rp)) / k_p
 //
 // with P the projection on 1, cos phi_i, sin phi_i. Three planets share evenly whatever their errors are. Source: own
-// derivation; the same result as the translational analogy of A. Singh, J. Mech. Des. 133 (2011) 031007.
+// derivation, docs/theory/model.md, section 5.
 
 #include <cmath>
 #include <cstddef>
@@ -91,20 +91,21 @@ TEST(LoadSharing, OfMorePlanetsIsThatOfTheClosedForm) {
       tangential[i] = given[i] * (std::cos(alpha.sun_planet) + std::cos(alpha.ring_planet));
       radial[i] = given[i] * (std::sin(alpha.sun_planet) - std::sin(alpha.ring_planet));
     }
-    gear::Stage stage = even;
-    stage.planet.pin_error_tangential_um = given;
-    expect_sharing(stage, tangential);
-    stage = even;
-    stage.planet.pin_error_radial_um = given;
-    expect_sharing(stage, radial);
-    stage = even;
-    stage.sun_planet_mesh.error_mean_um = given;
-    expect_sharing(stage, given);
-    stage = even;
-    stage.ring_planet_mesh.error_mean_um = given;
-    expect_sharing(stage, given);
+    const auto expect_with = [&](const auto& set, const std::vector<double>& errors_um) {
+      gear::Stage stage = even;
+      set(stage) = given;
+      expect_sharing(stage, errors_um);
+    };
+    expect_with(
+        [](gear::Stage & s) -> auto& { return s.planet.pin_error_tangential_um; }, tangential);
+    expect_with(
+        [](gear::Stage & s) -> auto& { return s.planet.pin_error_radial_um; }, radial);
+    expect_with(
+        [](gear::Stage & s) -> auto& { return s.sun_planet_mesh.error_mean_um; }, given);
+    expect_with(
+        [](gear::Stage & s) -> auto& { return s.ring_planet_mesh.error_mean_um; }, given);
     // The mirror image: tangential errors are towards rising angles, which are now against the torque.
-    stage = even;
+    gear::Stage stage = even;
     stage.planet.pin_error_tangential_um = given;
     stage.load.torque_Nm = -600.0;
     std::vector<double> opposite = tangential;
