@@ -15,8 +15,8 @@ struct ReversedRows {
   explicit ReversedRows(const std::vector<double>& given) {
     for (std::size_t k = given.size(); k-- > 0;) rows.push_back(k);
     // The phase 0 stays; both sides of a jump there change places.
-    const auto first = std::ranges::find(rows, 0.0, [&](std::size_t k) { return given[k]; });
-    std::ranges::rotate(rows, first);
+    const auto first = std::find_if(rows.begin(), rows.end(), [&](std::size_t k) { return given[k] == 0.0; });
+    std::rotate(rows.begin(), first, rows.end());
     for (const std::size_t k : rows) phase.push_back(given[k] == 0.0 ? 0.0 : 1.0 - given[k]);
   }
 
