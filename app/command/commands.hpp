@@ -57,7 +57,8 @@ struct Arguments {
   std::vector<std::string> sets;
   int threads = 1;
   bool json = false;
-  store::Part part{};                         ///< of sweep, map and basins: the share to compute
+  store::Part part{};                         ///< the share to compute
+  std::size_t chains_before = 0;              ///< of a sweep of reproduce: those of earlier sweeps, dealt to parts, too
   std::vector<std::filesystem::path> merged;  ///< of merge: folders with points of this study
   bool report = false;                        ///< write the page of `report` too
   std::vector<std::string> from;              ///< points to start from, of finished studies [finished_study.hpp]

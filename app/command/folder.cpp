@@ -1,10 +1,12 @@
 #include "folder.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.hpp"
@@ -151,6 +153,44 @@ std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const inp
       return std::nullopt;
   }
   return bug;
+}
+
+std::optional<int> enter_shared(store::OutputFolder& folder, const input::LoadedInput& input, bool quiet) {
+  if (const auto code = refuse_or_finish(folder, input, quiet)) return code;
+  if (!folder.is_first()) return std::nullopt;
+  (void)write_inputs(folder, input);
+  if (folder.share()) return std::nullopt;
+  print_message("{}: is in use by another process\n", folder.path().string());
+  return folder_in_use;
+}
+
+void print_part(const Arguments& arguments, const std::string& folder, bool already, const std::string& words,
+                nlohmann::json facts) {
+  const auto& [number, of] = arguments.part;
+  if (!arguments.json) {
+    print("{}: part {}/{} is complete{}: {}\n", folder, number, of, already ? " already" : "", words);
+    return;
+  }
+  facts.update({{"folder", folder}, {"part", number}, {"of", of}});
+  print("{}\n", facts.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+void report_parts(const std::string& folder, const PartsOfFolder& parts, std::size_t there, std::size_t all,
+                  std::string_view noun) {
+  if (parts.present.empty()) return;
+  print_message("{}: {} of {} {} were computed by parts\n", folder, parts.computed, all, noun);
+  if (there == all) return;
+  std::set<std::size_t> numbers_of_parts;
+  for (const store::Part& part : parts.present) numbers_of_parts.insert(part.of);
+  for (const std::size_t of : numbers_of_parts) {
+    std::vector<std::string> absent;
+    for (store::Part part{1, of}; part.number <= of; ++part.number)
+      if (store::first_of(part, parts.before) < parts.shares && !parts.present.contains(part))
+        absent.push_back(fmt::format("{}/{}", part.number, of));
+    if (!absent.empty())
+      print_message("{}: no journal of part {}; the missing {} are computed now\n", folder, fmt::join(absent, ", "),
+                    noun);
+  }
 }
 
 std::string resolved_text(const input::LoadedInput& input) { return input.resolved.dump(2) + "\n"; }

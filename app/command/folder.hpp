@@ -5,10 +5,13 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "input/study_input.hpp"
@@ -52,6 +55,30 @@ void report_cut_tail(const std::filesystem::path& journal, std::size_t bytes);
 /// @returns the exit code, or nothing if the study may be computed in it
 [[nodiscard]] std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const input::LoadedInput& input,
                                                   bool quiet = false);
+
+/// Opens a folder that the processes of parts share; the first of them writes the inputs.
+/// @returns the exit code if nothing is to be computed, and says why; as refuse_or_finish()
+[[nodiscard]] std::optional<int> enter_shared(store::OutputFolder& folder, const input::LoadedInput& input, bool quiet);
+
+/// Says on stdout that a part is complete.
+/// @param already  nothing was computed
+/// @param words    what the part has
+/// @param facts    for --json
+void print_part(const Arguments& arguments, const std::string& folder, bool already, const std::string& words,
+                nlohmann::json facts);
+
+/// Parts that have a journal in a folder.
+struct PartsOfFolder {
+  std::set<store::Part> present;
+  std::size_t computed = 0;  ///< results from them
+  std::size_t shares = 0;    ///< chains or draws that were dealt to the parts
+  std::size_t before = 0;    ///< dealt before these
+};
+
+/// Says on stderr how many results parts have computed, and which parts have no journal; nothing without parts.
+/// @param there, all  results of the study
+void report_parts(const std::string& folder, const PartsOfFolder& parts, std::size_t there, std::size_t all,
+                  std::string_view noun);
 
 /// What input.resolved.json holds.
 [[nodiscard]] std::string resolved_text(const input::LoadedInput& input);

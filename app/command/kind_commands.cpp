@@ -47,22 +47,22 @@ void add_points_options(CLI::App& command, Arguments& arguments) {
   CLI::Option* grow = command.add_option(
       "--grow", arguments.grow,
       "reuse the points of a finished smaller study (its folder) that a new computation would repeat byte for byte");
-  command
+  add_part_option(command, arguments)->excludes(grow);
+}
+
+CLI::Option* add_part_option(CLI::App& command, Arguments& arguments) {
+  return command
       .add_option_function<std::string>(
           "--part", [&arguments](const std::string& text) { arguments.part = part_in(text); },
           "compute part K of N, such as 2/8, and no results; afterwards the same command without --part computes what "
           "is missing and writes the results")
-      ->excludes(grow)
       ->excludes(command.get_option("--report"));
 }
 
-void add_part_refusal(CLI::App& command) {
+void add_part_refusal(CLI::App& command, const char* why) {
   command
-      .add_option_function<std::string>("--part",
-                                        [](const std::string& /*text*/) {
-                                          throw CLI::ValidationError(
-                                              "--part", "only sweep, map and basins can be computed in parts");
-                                        })
+      .add_option_function<std::string>(
+          "--part", [why](const std::string& /*text*/) { throw CLI::ValidationError("--part", why); })
       ->group("");  // not in --help
 }
 

@@ -10,7 +10,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace epicyclic::app {
 
@@ -45,8 +46,13 @@ EPICYCLIC_KINDS(EPICYCLIC_KIND)
 /// --grow and --part, for studies of points: a smaller one may be part of them, and each point can be computed alone.
 void add_points_options(CLI::App& command, Arguments& arguments);
 
-/// Refuses --part, for commands that compute no points one by one.
-void add_part_refusal(CLI::App& command);
+/// --part, for studies whose results are independent of each other; --report excludes it.
+/// @returns the option, for further exclusions
+CLI::Option* add_part_option(CLI::App& command, Arguments& arguments);
+
+/// Refuses --part.
+void add_part_refusal(CLI::App& command,
+                      const char* why = "only sweep, map, basins, robustness and reproduce have parts");
 
 /// --from, for studies that may start from a point of a finished one; INPUT is then optional.
 void add_start_option(CLI::App& command, Arguments& arguments);

@@ -201,11 +201,20 @@ void add_serve_options(CLI::App& command, Arguments& arguments) {
 void add_reproduce_options(CLI::App& command, Arguments& arguments) {
   command.get_option("INPUT")->description(
       "claims of a publication: a name in validation/, a folder, or a file (JSON)");
-  command.add_flag("--record", arguments.record, "record these verdicts as the expected ones");
+  CLI::Option* record = command.add_flag("--record", arguments.record, "record these verdicts as the expected ones");
   command.add_option(
       "--expected", arguments.expected,
       "file of the expected verdicts, for example of another stage; default: NAME.scorecard.json beside the input");
+  add_part_option(command, arguments)->excludes(record);
 }
+
+void add_calibrate_options(CLI::App& command, Arguments& /*arguments*/) {
+  add_part_refusal(command,
+                   "a search has no parts: each generation depends on the one before it, and the islands exchange "
+                   "candidates; several processes share a search by MPI");
+}
+
+void add_robustness_options(CLI::App& command, Arguments& arguments) { add_part_option(command, arguments); }
 
 void add_word_option(CLI::App& command, Arguments& arguments) {
   command.add_option("WORD", arguments.words,
@@ -232,9 +241,9 @@ std::vector<Command> all_commands() {
       {"reproduce", "compare the claims of a publication with a stage, and draw its figures", reproduce_command,
        Takes::output, add_reproduce_options},
       {"calibrate", "search for unpublished parameters of a stage that meet the published claims", calibrate_command,
-       Takes::output, no_options, true},
+       Takes::output, add_calibrate_options, true},
       {"robustness", "compute for which part of the unpublished parameters each claim holds", robustness_command,
-       Takes::output, no_options, true},
+       Takes::output, add_robustness_options, true},
       {"merge", "put parts of a study together, from folders of their own, and compute what is missing", merge_command,
        Takes::finished, add_merge_options},
       {"assert", "compare special points of finished branches with expected ones", assert_command, Takes::finished,

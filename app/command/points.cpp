@@ -11,7 +11,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,9 +54,11 @@ struct PartPoints {
   std::size_t missing = 0, all = 0;
 };
 
-PartPoints points_of(const store::Part& part, const studies::SweepPlan& plan, const store::PointStore& store) {
+PartPoints points_of(const Arguments& arguments, const studies::SweepPlan& plan, const store::PointStore& store) {
   PartPoints points;
-  for (std::size_t chain = part.number - 1; chain < plan.chains.size(); chain += part.of) {
+  const store::Part& part = arguments.part;
+  for (std::size_t chain = store::first_of(part, arguments.chains_before); chain < plan.chains.size();
+       chain += part.of) {
     points.all += plan.chains[chain].size();
     for (const std::size_t point : plan.chains[chain]) points.missing += store.holds(point) ? 0 : 1;
   }
@@ -65,26 +66,16 @@ PartPoints points_of(const store::Part& part, const studies::SweepPlan& plan, co
 }
 
 /// States how many points parts have computed, and which parts have no journal.
-void report_parts(const std::string& folder, const store::PointStore& store, const studies::SweepPlan& plan,
-                  std::string_view noun) {
-  const std::map<store::Part, std::size_t> parts = store.parts();
-  if (parts.empty()) return;
-  std::size_t points = 0;
-  std::map<std::size_t, std::set<std::size_t>> present;  // numbers of parts by how many they are
-  for (const auto& [part, held] : parts) {
-    points += held;
-    present[part.of].insert(part.number);
+void report_points_of_parts(const Arguments& arguments, const store::PointStore& store, const studies::SweepPlan& plan,
+                            std::string_view noun) {
+  PartsOfFolder parts;
+  for (const auto& [part, held] : store.parts()) {
+    parts.present.insert(part);
+    parts.computed += held;
   }
-  print_message("{}: {} of {} {} were computed by parts\n", folder, points, plan.points.size(), noun);
-  if (store.size() == plan.points.size()) return;
-  for (const auto& [of, numbers] : present) {
-    std::vector<std::string> absent;
-    for (std::size_t number = 1; number <= std::min(of, plan.chains.size()); ++number)
-      if (!numbers.contains(number)) absent.push_back(fmt::format("{}/{}", number, of));
-    if (!absent.empty())
-      print_message("{}: no journal of part {}; the missing points are computed now\n", folder,
-                    fmt::join(absent, ", "));
-  }
+  parts.before = arguments.chains_before;
+  parts.shares = plan.chains.size();
+  report_parts(arguments.output.string(), parts, store.size(), plan.points.size(), noun);
 }
 
 /// Computes the points that the store does not have; of a part, those of its chains.
@@ -102,7 +93,7 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
   run.threads = arguments.threads;
   std::atomic<std::size_t> next{0};
   if (part.of > 0) {
-    next = part.number - 1;
+    next = store::first_of(part, arguments.chains_before);
     run.next_chain = [&]() -> std::optional<std::size_t> {
       const std::size_t chain = next.fetch_add(part.of);
       return chain < plan.chains.size() ? std::optional(chain) : std::nullopt;
@@ -322,37 +313,26 @@ int compute_part(const Arguments& arguments, std::string_view command, std::stri
   const std::string identity = identity_of(input, command);
   store::OutputFolder folder(arguments.output, identity, false, store::FolderUse::shared);
   const std::string where = folder.path().string();
-  if (const auto code = refuse_or_finish(folder, input)) return *code;
-  if (folder.is_first()) {
-    (void)write_inputs(folder, input);
-    if (!folder.share()) {
-      print_message("{}: is in use by another process\n", where);
-      return folder_in_use;
-    }
-  }
+  if (const auto code = enter_shared(folder, input, arguments.quiet)) return *code;
   try {
     store::PointStore store(folder.path(), identity, plan.points.size(), part);
     for (const auto& [journal, bytes] : store.cut_tails()) report_cut_tail(journal, bytes);
-    PartPoints points = points_of(part, plan, store);
+    PartPoints points = points_of(arguments, plan, store);
     const bool nothing_to_do = points.missing == 0;
     if (!nothing_to_do) {
       studies::LaneUse lanes;
       (void)compute_missing(arguments, command, noun, input, plan, model_at, store, nullptr, lanes);
       folder.require_there();
-      points = points_of(part, plan, store);
+      points = points_of(arguments, plan, store);
     }
     if (points.missing > 0) {
       print_message("{}: {} stopped after {} of {} {}; re-run the same command to resume\n", where, name,
                     points.all - points.missing, points.all, noun);
       return stopped_early;
     }
-    if (arguments.json)
-      print("{}\n",
-            nlohmann::json{{"folder", where}, {"part", part.number}, {"of", part.of}, {"points", points.all}}.dump(
-                2, ' ', false, nlohmann::json::error_handler_t::replace));
-    else
-      print("{}: {} is complete{}: {} of {} {}\n", where, name, nothing_to_do ? " already" : "", points.all,
-            plan.points.size(), noun);
+    if (!arguments.quiet)
+      print_part(arguments, where, nothing_to_do, fmt::format("{} of {} {}", points.all, plan.points.size(), noun),
+                 {{"points", points.all}});
     return done;
   } catch (const store::JournalInUse&) {
     print_message("{}: another process computes {}\n", where, name);
@@ -394,7 +374,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   for (const auto& [journal, bytes] : store.cut_tails()) report_cut_tail(journal, bytes);
   for (const std::filesystem::path& from : arguments.merged)
     merge_into(store, from, identity, plan.points.size(), noun);
-  report_parts(folder.path().string(), store, plan, noun);
+  report_points_of_parts(arguments, store, plan, noun);
   std::size_t taken = 0;
   if (grown) {
     taken = grown->take_into(store);
@@ -457,8 +437,8 @@ int merge_command(const Arguments& arguments) {
   of.input = first / "input.resolved.json";
   const std::string kind(input::load_input(of.input).study.kind());
   if (kind != "sweep" && kind != "map" && kind != "basins")
-    throw InputError(
-        fmt::format("{}: is a study of kind {}; only sweep, map and basins have parts", first.string(), kind));
+    throw InputError(fmt::format("{}: is a study of kind {}; only folders of sweep, map and basins are merged",
+                                 first.string(), kind));
   return command_of(kind).run(of);
 }
 

@@ -28,13 +28,35 @@ namespace {
 constexpr std::size_t by_glance = 0;
 constexpr std::size_t by_whole_sweeps = 1;
 
-/// The draws that are to be confirmed, of those that are known.
+/// The draws that are to be confirmed, as far as they are known: whether one is depends on all draws before it.
 std::vector<std::size_t> to_confirm(const ClaimsOptions& options, const KnownEvaluations& evaluations) {
   std::vector<std::size_t> numbers;
-  for (const EvaluatedCandidate* c : surveyed_draws(evaluations))
-    if (numbers.size() < static_cast<std::size_t>(options.survey.confirmed) && c->evaluation.refused.empty())
-      numbers.push_back(c->key.number);
+  std::size_t next = 0;
+  for (const EvaluatedCandidate* c : surveyed_draws(evaluations)) {
+    if (c->key.number != next++ || numbers.size() >= static_cast<std::size_t>(options.survey.confirmed)) break;
+    if (c->evaluation.refused.empty()) numbers.push_back(c->key.number);
+  }
   return numbers;
+}
+
+std::vector<std::size_t> first_numbers(int count) {
+  std::vector<std::size_t> numbers(static_cast<std::size_t>(count));
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  return numbers;
+}
+
+/// What a part computes of a list.
+std::vector<std::size_t> dealt(std::vector<std::size_t> all, const store::Part& part) {
+  if (part.of == 0) return all;
+  std::vector<std::size_t> share;
+  for (std::size_t k = store::first_of(part); k < all.size(); k += part.of) share.push_back(all[k]);
+  return share;
+}
+
+std::size_t known_of(const KnownEvaluations& evaluations, std::size_t phase, const std::vector<std::size_t>& numbers) {
+  return static_cast<std::size_t>(std::ranges::count_if(numbers, [&](std::size_t d) {
+    return evaluations.contains({phase, d});
+  }));
 }
 
 /// Evaluates draws that are not kept, by the screening or by whole sweeps.
@@ -75,14 +97,22 @@ bool survey_is_complete(const ClaimsOptions& options, const KnownEvaluations& ev
          });
 }
 
-KnownEvaluations survey(const ClaimsOptions& options, const Evaluator& evaluate, CalibrationRun run) {
+SurveyShare share_of(const ClaimsOptions& options, const KnownEvaluations& evaluations, const store::Part& part) {
+  const std::vector<std::size_t> draws = dealt(first_numbers(options.survey.draws), part);
+  const std::vector<std::size_t> confirmed = dealt(to_confirm(options, evaluations), part);
+  return {draws.size(), known_of(evaluations, by_glance, draws), confirmed.size(),
+          known_of(evaluations, by_whole_sweeps, confirmed),
+          dealt(first_numbers(std::min(options.survey.confirmed, options.survey.draws)), part).size()};
+}
+
+KnownEvaluations survey(const ClaimsOptions& options, const Evaluator& evaluate, CalibrationRun run,
+                        const store::Part& part) {
   KnownEvaluations all = std::exchange(run.known, {});
-  std::vector<std::size_t> draws(static_cast<std::size_t>(options.survey.draws));
-  std::iota(draws.begin(), draws.end(), std::size_t{0});
+  const std::vector<std::size_t> draws = dealt(first_numbers(options.survey.draws), part);
   try {
     evaluate_draws(options, by_glance, draws, evaluate, run, all);
-    if (surveyed_draws(all).size() >= draws.size())
-      evaluate_draws(options, by_whole_sweeps, to_confirm(options, all), evaluate, run, all);
+    if (known_of(all, by_glance, draws) == draws.size())
+      evaluate_draws(options, by_whole_sweeps, dealt(to_confirm(options, all), part), evaluate, run, all);
   } catch (const EvaluationStopped&) {
     // The available part is returned.
   }

@@ -13,6 +13,7 @@
 
 #include "analysis/statistics.hpp"
 #include "claims/calibration.hpp"
+#include "store/part.hpp"
 
 namespace epicyclic::claims {
 
@@ -21,9 +22,25 @@ namespace epicyclic::claims {
 
 /// All draws, with kept ones as they are, key {0, draw}. Then the first valid draws by whole sweeps, as many as are to
 /// be confirmed, key {1, draw}.
+/// @param part  only its share of both; of the draws to be confirmed, only those that the kept draws determine
 /// @returns by key; fewer than requested only if stopped, see survey_is_complete()
 /// @throws InputError if kept evaluations are not of these draws
-[[nodiscard]] KnownEvaluations survey(const ClaimsOptions& options, const Evaluator& evaluate, CalibrationRun run);
+[[nodiscard]] KnownEvaluations survey(const ClaimsOptions& options, const Evaluator& evaluate, CalibrationRun run,
+                                      const store::Part& part = {});
+
+/// Evaluations that belong to a part, and those of them that are known.
+struct SurveyShare {
+  std::size_t draws = 0, draws_known = 0;
+  std::size_t confirmed = 0, confirmed_known = 0;  ///< by whole sweeps, of those that the known draws determine
+  std::size_t confirmed_most = 0;                  ///< if all draws are known
+
+  [[nodiscard]] std::size_t known() const { return draws_known + confirmed_known; }
+  [[nodiscard]] bool complete() const { return draws_known == draws && confirmed_known == confirmed; }
+};
+
+/// @param part  the whole survey if it has no parts
+[[nodiscard]] SurveyShare share_of(const ClaimsOptions& options, const KnownEvaluations& evaluations,
+                                   const store::Part& part);
 
 [[nodiscard]] bool survey_is_complete(const ClaimsOptions& options, const KnownEvaluations& evaluations);
 

@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <filesystem>
-#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -63,6 +62,8 @@ std::string rank_journal_name(int rank) { return fmt::format("{}{}{}", rank_star
 std::string part_journal_name(const Part& part) {
   return fmt::format("{}{}{}{}{}", part_start, part.number, part_middle, part.of, journal_end);
 }
+
+std::set<Part> parts_in(const std::filesystem::path& folder) { return journals_in(folder).parts; }
 
 PointStore::PointStore(std::filesystem::path folder, std::string identity, std::size_t points, Journal::Use use)
     : folder_(std::move(folder)), identity_(std::move(identity)), use_(use), places_(points) {

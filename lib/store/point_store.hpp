@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ namespace epicyclic::store {
 
 /// Name of the journal of a process that computes a part.
 [[nodiscard]] std::string part_journal_name(const Part& part);
+
+/// The parts that have a journal in a folder.
+/// @throws OutputError if it cannot be listed
+[[nodiscard]] std::set<Part> parts_in(const std::filesystem::path& folder);
 
 /// append() and reading may be called from several threads.
 class PointStore {

@@ -103,6 +103,44 @@ TEST(Survey, HoldsItsFirstValidDrawsAgainstWholeSweeps) {
   EXPECT_FALSE(survey_is_complete(options, without));
 }
 
+TEST(Survey, PartsComputeEachEvaluationOnce) {
+  ClaimsOptions options = options_of(11);
+  options.survey.confirmed = 5;
+  const double no_stage = draw(options.space, 5, 1)[0];
+  std::size_t evaluated = 0;
+  const auto of_part = [&](const KnownEvaluations& known, const store::Part& part) {
+    CalibrationRun run;
+    run.known = known;
+    run.evaluated = [&](const EvaluatedCandidate&) { ++evaluated; };
+    return survey(
+        options,
+        [&](const Question& q) {
+          Evaluation e = decided_by_first(q.u);
+          if (q.u[0] == no_stage) e.refused = "no stage";
+          return e;
+        },
+        run, part);
+  };
+  const KnownEvaluations whole = of_part({}, {});
+  ASSERT_EQ(whole.size(), 16U);
+  // The third part alone does not know which draws are valid before its own.
+  const KnownEvaluations alone = of_part({}, {3, 3});
+  EXPECT_EQ(alone.size(), 3U);
+  EXPECT_TRUE(share_of(options, alone, {3, 3}).complete());
+  evaluated = 0;
+  KnownEvaluations all;
+  for (int pass = 0; pass < 2; ++pass)
+    for (const std::size_t number : {2, 3, 1}) all = of_part(all, {number, 3});
+  EXPECT_EQ(evaluated, whole.size());
+  ASSERT_EQ(all.size(), whole.size());
+  for (const auto& [key, c] : whole) EXPECT_EQ(all.at(key).u, c.u);
+  EXPECT_TRUE(survey_is_complete(options, all));
+  const SurveyShare share = share_of(options, all, {1, 3});
+  EXPECT_EQ(share.draws, 4U);
+  EXPECT_EQ(share.confirmed, 2U);
+  EXPECT_EQ(share.confirmed_most, 2U);
+}
+
 TEST(Robustness, TellsPartsAndWhatDecides) {
   const ClaimsOptions options = options_of(400);
   const auto claims = robustness(options, surveyed(options, 1));

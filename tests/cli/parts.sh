@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # parts.sh EPICYCLIC SOURCE_DIR
 #
-# A sweep, a map and basins by 1, 2, 3 and 7 parts in an order that SEED gives, with kills and repetitions: the same bytes
-# as one process. Parts killed within KILLS sessions in all (6). Two starts of one part at once, a part that is missing,
-# the command while a part runs, folders put together, refusals.
+# Studies of each kind that has parts by 1, 2, 3 and 7 of them in an order that SEED gives, with kills and repetitions: the
+# same bytes as one process. Parts killed within KILLS sessions in all (6). Two starts of one part at once, a part that is
+# missing, the command while a part runs, folders put together, refusals.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 
@@ -21,6 +21,31 @@ map=(map "$inputs/tang2020_map.json" "${few[@]}" --set /study/first/points=4 --s
 basins=(basins "$inputs/tang2020_basins.json" --set /study/first/points=4 --set /study/second/points=3
   --set /study/transient_periods=20 --set /study/recorded_periods=8)
 kinds=(sweep continued lanes map basins)
+if has_claims; then
+  cat >claims.json <<END
+{ "name": "small", "operation": { "mesh_frequency_ratio": 2.5 }, "stage": "$inputs/tang2020.json",
+  "integrator": { "method": "lanes-cash-karp", "relative_tolerance": 1e-6, "absolute_tolerance": 1e-8 },
+  "study": { "kind": "claims", "starts": ["continued", "cold"],
+    "transient_periods": 20, "recorded_periods": 8, "classification_periods": 0, "output_phases": 8,
+    "sweeps": [
+      { "name": "speed", "parameter": "mesh_frequency_ratio", "from": 1.5, "to": 2.5, "points": 4,
+        "directions": ["up", "down"], "screening_points": 3 },
+      { "name": "damping", "parameter": "damping_ratio", "from": 0.03, "to": 0.1, "points": 3, "screening_points": 2 } ],
+    "claims": [
+      { "name": "A", "text": "the range is small", "conditions": [
+          { "kind": "value", "sweep": "damping", "quantity": "delta_sp_range", "at_most": 0.1 } ] },
+      { "name": "B", "text": "and over speed", "conditions": [
+          { "kind": "value", "sweep": "speed", "quantity": "delta_sp_range", "at_most": 0.2 } ] } ],
+    "figures": [ { "name": "fig1", "title": "Speed", "panels": [ { "sweep": "speed", "title": "(a)" } ] } ],
+    "parameters": [
+      { "name": "E", "description": "error [um]", "from": 0.5, "to": 20, "targets": [
+          { "pointer": "/stage/lumped/sun_planet_mesh/error_amplitude_um" } ] } ],
+    "survey": { "draws": 8, "confirmed": 3, "screening": { "transient_periods": 20, "recorded_periods": 8, "growth_periods": 8 } } } }
+END
+  robustness=(robustness claims.json)
+  reproduce=(reproduce claims.json)
+  kinds+=(robustness reproduce)
+fi
 result_files=(input.json input.resolved.json)
 
 # The part, with an exit code of 0 and no results.
@@ -63,7 +88,7 @@ while [ $rounds -lt ${#kinds[@]} ] || [ "$killed" -lt "$kills" ]; do
       [ ! -e "$folder/points.csv" ] || fail "$folder: a part wrote results"
       if [ $((RANDOM % 4)) = 0 ]; then
         part "$folder" "$number/$of"
-        grep -q 'is complete already' stdout || fail "$folder: part $number/$of was computed twice: $(<stdout)"
+        grep -q "is complete$([ "$kind" = reproduce ] || echo ' already'): " stdout || fail "$folder: part $number/$of was computed twice: $(<stdout)"
       fi
     fi
   done
@@ -87,22 +112,44 @@ part absent 2/4
 grep -q 'complete already' stderr || fail "a part of a complete study must say so: $(<stderr)"
 
 # Parts at once, each twice: the folder is new to all of them.
-for number in 1 1 2 2 3 3; do
-  (
-    code=0
-    said=atonce.said.$BASHPID
-    "$epicyclic" "${study[@]}" -o atonce --threads 1 --part $number/3 >/dev/null 2>$said || code=$?
-    echo $code >>atonce.codes
-    [ $code = 0 ] || grep -q "another process computes part $number/3" $said || cat $said >>atonce.wrong
-  ) &
+for kind in sweep robustness reproduce; do
+  [[ " ${kinds[*]} " = *" $kind "* ]] || continue
+  declare -n study=$kind
+  folder=atonce.$kind
+  for number in 1 1 2 2 3 3; do
+    (
+      code=0
+      said=$folder.said.$BASHPID
+      "$epicyclic" "${study[@]}" -o "$folder" --threads 1 --part $number/3 >/dev/null 2>$said || code=$?
+      echo $code >>"$folder.codes"
+      [ $code = 0 ] || grep -q "another process computes part $number/3" $said || cat $said >>"$folder.wrong"
+    ) &
+  done
+  wait
+  [ ! -s "$folder.wrong" ] || fail "$kind, parts at once: $(<"$folder.wrong")"
+  ! grep -qvE '^(0|75)$' "$folder.codes" || fail "$kind, parts at once must give 0 or 75: $(<"$folder.codes")"
+  [ "$(grep -c '^0$' "$folder.codes")" -ge 3 ] || fail "$kind, parts at once: not each was computed: $(<"$folder.codes")"
+  [ "$(code_of "$epicyclic" "${study[@]}" -o "$folder")" = 0 ] || fail "$folder: $(<stderr)"
+  ! grep -q 'no journal of part' stderr || fail "$kind: no part is missing: $(<stderr)"
+  same_folder $kind "$folder"
 done
-wait
-[ ! -s atonce.wrong ] || fail "parts at once: $(<atonce.wrong)"
-! grep -qvE '^(0|75)$' atonce.codes || fail "parts at once must give 0 or 75: $(<atonce.codes)"
-[ "$(grep -c '^0$' atonce.codes)" -ge 3 ] || fail "parts at once: not each was computed: $(<atonce.codes)"
-[ "$(code_of "$epicyclic" "${study[@]}" -o atonce)" = 0 ] || fail "atonce: $(<stderr)"
-! grep -q 'no journal of part' stderr || fail "no part is missing: $(<stderr)"
-same_folder sweep atonce
+
+# Parts of claims in folders of their own, copied into one; one of them is missing, which is said.
+if has_claims; then
+  for kind in robustness reproduce; do
+    declare -n study=$kind
+    for number in 1 3; do part copied.$number.$kind $number/3; done
+    cp -r copied.1.$kind/. copied.3.$kind
+    [ "$(code_of "$epicyclic" "${study[@]}" -o copied.3.$kind --threads 1)" = 0 ] || fail "copied parts: $(<stderr)"
+    grep -q 'were computed by parts' stderr && grep -q 'no journal of part 2/3;' stderr || fail "copied parts: $(<stderr)"
+    same_folder $kind copied.3.$kind
+    part copied.3.$kind 2/3
+    grep -q 'complete already' stderr || fail "a part of a complete study must say so: $(<stderr)"
+  done
+  [ "$(code_of "$epicyclic" merge copied.1.robustness copied.1.robustness -o mixed)" = 2 ] || fail "merge of claims: $(<stderr)"
+  grep -q 'only folders of sweep, map and basins are merged' stderr || fail "merge of claims: $(<stderr)"
+fi
+declare -n study=sweep
 
 # Parts in folders of their own, put together: all of them, and one too few.
 for number in 1 2 3; do part own.$number $number/3; done
@@ -143,6 +190,10 @@ refused() {
   [ ! -e refused ] || fail "refused, but written to: $*"
 }
 for text in 0/3 4/3 1/0 1 1/x 1/3/3 -1/3 1/10001; do refused 'is not K/N' "${study[@]}" --part=$text; done
-refused 'only sweep, map and basins' run "$inputs/tang2020_run.json" --part 1/2
+refused 'only sweep, map, basins, robustness and reproduce' run "$inputs/tang2020_run.json" --part 1/2
 refused 'excludes' "${study[@]}" --part 1/2 --report
+if has_claims; then
+  refused 'the islands exchange candidates' calibrate claims.json --part 1/2
+  refused 'excludes' reproduce claims.json --part 1/2 --record
+fi
 finish

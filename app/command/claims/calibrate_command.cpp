@@ -54,7 +54,8 @@ int search(const Arguments& arguments, SharedEvaluations& shared) {
 
   for (const std::string& words : given.moved)
     print_message("the stage as it is given is no candidate; the first one has {}\n", words);
-  CandidateJournal journal(session, "calibrate", claims::most_evaluations(options), 0, options.claims.size());
+  CandidateJournal journal(folder, identity);
+  journal.show_progress("calibrate", claims::most_evaluations(options), 0, journal.records(), options.claims.size());
   claims::Calibration found;
   shared.run(evaluator_by(claims::search_glance)(input, shared.stop()),
              [&](const claims::Evaluator& evaluate, int threads) {
@@ -63,7 +64,7 @@ int search(const Arguments& arguments, SharedEvaluations& shared) {
   journal.close();
   std::int64_t undrawn = 0;
   const auto close_run = [&](store::RunState state) {
-    session.end(state, {{"candidates", static_cast<std::int64_t>(journal.finished())}, {"undrawn", undrawn}});
+    session.end(state, {{"candidates", static_cast<std::int64_t>(journal.records())}, {"undrawn", undrawn}});
   };
 
   folder.require_there();
@@ -84,7 +85,7 @@ int search(const Arguments& arguments, SharedEvaluations& shared) {
   }
   if (!found.complete) {
     close_run(store::RunState::stopped);
-    print_message("stopped after {} candidates; re-run the same command to resume\n", journal.finished());
+    print_message("stopped after {} candidates; re-run the same command to resume\n", journal.records());
     return stopped_early;
   }
   std::vector<reports::DrawnFigure> figures;

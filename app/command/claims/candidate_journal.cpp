@@ -1,40 +1,62 @@
 #include "candidate_journal.hpp"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "claims/candidate_record.hpp"
 #include "core/text.hpp"
-#include "folder.hpp"
+#include "store/point_store.hpp"
 
 namespace epicyclic::app {
 
-namespace {
-
-/// @param finished  set to the number of records
-claims::KnownEvaluations read_known(const store::Journal& journal, std::size_t& finished) {
-  claims::KnownEvaluations known;
-  for (const store::JournalEntry& entry : journal.entries()) {
-    claims::EvaluatedCandidate c = claims::decode_candidate(journal.read(entry));
-    known.insert_or_assign(c.key, std::move(c));
-    ++finished;
-  }
-  return known;
+CandidateJournal::CandidateJournal(const store::OutputFolder& folder, const std::string& identity,
+                                   const store::Part& part)
+    : folder_(folder.path()),
+      identity_(identity),
+      own_(part.of > 0 ? store::part_journal_name(part) : "journal.bin"),
+      journal_(folder_ / own_, identity_) {
+  report_cut_tail(folder_ / own_, journal_.cut_bytes());
+  records_ = read(journal_);
+  read_others();
 }
 
-}  // namespace
+/// @returns the number of its records
+std::size_t CandidateJournal::read(const store::Journal& journal) {
+  for (const store::JournalEntry& entry : journal.entries()) {
+    claims::EvaluatedCandidate c = claims::decode_candidate(journal.read(entry));
+    const auto [known, is_new] = known_.try_emplace(c.key, c);
+    if (!is_new && claims::encode_candidate(known->second) != claims::encode_candidate(c))
+      throw store::DamagedData(fmt::format("{}: two records of candidate {} differ", folder_.string(), c.key.number));
+  }
+  return journal.entries().size();
+}
 
-CandidateJournal::CandidateJournal(Session& session, const std::string& command, std::size_t total, std::size_t whole,
-                                   std::size_t claims)
-    : journal_(session.folder().file("journal.bin"), session.identity()),
-      known_(read_known(journal_, finished_)),
-      claims_(claims),
-      command_(command),
-      total_(total),
-      whole_(whole) {
-  report_cut_tail(session.folder().file("journal.bin"), journal_.cut_bytes());
+void CandidateJournal::read_others() {
+  const bool alone = own_ == "journal.bin";
+  if (std::error_code error; !alone && std::filesystem::exists(folder_ / "journal.bin", error))
+    (void)read(store::Journal(folder_ / "journal.bin", identity_, store::Journal::Use::read));
+  parts_.present = store::parts_in(folder_);
+  parts_.computed = 0;
+  for (const store::Part& part : parts_.present) {
+    const std::string name = store::part_journal_name(part);
+    if (name == own_) continue;
+    const store::Journal journal(folder_ / name, identity_,
+                                 alone ? store::Journal::Use::append : store::Journal::Use::read);
+    report_cut_tail(folder_ / name, journal.cut_bytes());
+    parts_.computed += read(journal);
+  }
+}
+
+void CandidateJournal::show_progress(const std::string& command, std::size_t total, std::size_t whole,
+                                     std::size_t finished, std::size_t claims) {
+  command_ = command;
+  total_ = total;
+  whole_ = whole;
+  finished_ = finished;
+  claims_ = claims;
   for (const auto& [key, candidate] : known_) see(candidate);
   if (finished_ < total_) progress_.emplace(command_, total_, finished_);
   report_progress();
@@ -53,10 +75,11 @@ claims::CalibrationRun CandidateJournal::run(int threads, const std::atomic<bool
   claims::CalibrationRun run;
   run.threads = threads;
   run.stop = &stop;
-  run.known = std::move(known_);
+  run.known = known_;
   run.evaluated = [this](const claims::EvaluatedCandidate& candidate) {
-    journal_.append(finished_, claims::encode_candidate(candidate));
+    journal_.append(records_, claims::encode_candidate(candidate));
     see(candidate);
+    ++records_;
     ++finished_;
     report_progress();
   };

@@ -51,15 +51,61 @@ std::string folder_name(const claims::ClaimSweep& sweep, studies::Start start) {
 
 /// A command of its own in a folder of its own.
 /// @param input  its text, which is put beside the folder
-int run_part(const Arguments& arguments, const std::filesystem::path& folder, const std::string& name,
-             const std::string& input, int (*command)(const Arguments&)) {
-  Arguments part = arguments;
-  part.input = folder / (name + ".json");
-  part.output = folder / name;
-  part.sets.clear();
-  part.quiet = true;
-  write_file_atomically(part.input, input);
-  return command(part);
+int run_study(const Arguments& arguments, const std::filesystem::path& folder, const std::string& name,
+              const std::string& input, int (*command)(const Arguments&), std::size_t chains_before = 0) {
+  Arguments of = arguments;
+  of.input = folder / (name + ".json");
+  of.output = folder / name;
+  of.sets.clear();
+  of.quiet = true;
+  of.chains_before = chains_before;
+  write_file_atomically(of.input, input);
+  return command(of);
+}
+
+/// A sweep of the claims.
+struct SweepStudy {
+  const claims::ClaimSweep* sweep;
+  studies::Start start;
+  std::size_t chains, chains_before;  ///< its own, and those of the studies before it
+
+  [[nodiscard]] std::string name() const { return folder_name(*sweep, start); }
+};
+
+std::vector<SweepStudy> sweep_studies(const claims::ClaimsOptions& options) {
+  std::vector<SweepStudy> all;
+  std::size_t before = 0;
+  for (const studies::Start start : options.starts)
+    for (const claims::ClaimSweep& sweep : options.sweeps) {
+      const studies::SweepPlan plan = studies::plan_sweep(options.whole_sweep(sweep, start));
+      all.push_back({&sweep, start, plan.chains.size(), before});
+      before += plan.chains.size();
+    }
+  return all;
+}
+
+/// Computes a part of all sweeps into the folder, beside other parts, and writes no results. The chains of all sweeps
+/// are dealt to the parts as those of one study.
+int compute_part(const Arguments& arguments, const input::LoadedInput& input, const std::string& identity) {
+  const store::Part& part = arguments.part;
+  store::OutputFolder folder(arguments.output, identity, false, store::FolderUse::shared);
+  if (const auto code = enter_shared(folder, input, arguments.quiet)) return *code;
+  const std::filesystem::path sweeps = folder.file("sweeps");
+  create_folder(sweeps, /*parents=*/false);
+  std::size_t with_share = 0, count = 0;
+  for (const SweepStudy& of : sweep_studies(claims::claims_in(input.study))) {
+    ++count;
+    if (store::first_of(part, of.chains_before) >= of.chains) continue;
+    ++with_share;
+    const int code =
+        run_study(arguments, sweeps, of.name(), claims::sweep_input(input, *of.sweep, of.start).dump(2) + "\n",
+                  sweep_command().run, of.chains_before);
+    if (code != done && code != done_with_failures) return code;
+  }
+  folder.require_there();
+  print_part(arguments, folder.path().string(), false, fmt::format("its share of {} of {} sweeps", with_share, count),
+             {{"sweeps", with_share}});
+  return done;
 }
 
 /// Where each sweep was computed.
@@ -101,7 +147,9 @@ int reproduce_command(const Arguments& given) {
     expected = claims::read_recorded(recorded);
   print_warnings(input);
 
-  Session session(arguments, input, identity_of(input, "reproduce"), arguments.threads, 1, true);
+  const std::string identity = identity_of(input, "reproduce");
+  if (arguments.part.of > 0) return compute_part(arguments, input, identity);
+  Session session(arguments, input, identity, arguments.threads, 1, true);
   if (const auto code = session.exit_code()) return *code;
   const store::OutputFolder& folder = session.folder();
 
@@ -109,19 +157,18 @@ int reproduce_command(const Arguments& given) {
   const std::filesystem::path sweeps = folder.file("sweeps");
   create_folder(sweeps, /*parents=*/false);
   const auto compute = [&](const std::filesystem::path& place, const std::string& name, const nlohmann::json& text,
-                           int (*command)(const Arguments&)) {
-    const int code = run_part(arguments, place, name, text.dump(2) + "\n", command);
+                           int (*command)(const Arguments&), std::size_t chains_before = 0) {
+    const int code = run_study(arguments, place, name, text.dump(2) + "\n", command, chains_before);
     if (code != done && code != done_with_failures) return code;
     worst = std::max(worst, code);
     return static_cast<int>(done);
   };
   int code = compute(folder.path(), "gear", input.resolved["stage"], gear_command);
   const auto begun = std::chrono::steady_clock::now();
-  for (const studies::Start start : options.starts)
-    for (const claims::ClaimSweep& sweep : options.sweeps)
-      if (code == done)
-        code =
-            compute(sweeps, folder_name(sweep, start), claims::sweep_input(input, sweep, start), sweep_command().run);
+  for (const SweepStudy& of : sweep_studies(options))
+    if (code == done)
+      code = compute(sweeps, of.name(), claims::sweep_input(input, *of.sweep, of.start), sweep_command().run,
+                     of.chains_before);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
   if (code != done) {
     session.end(store::RunState::stopped, {});
