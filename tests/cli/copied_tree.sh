@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # copied_tree.sh EPICYCLIC SOURCE_DIR
 #
-# app/run in a tree that was copied with its build folder configures and builds anew, and says so; in its own tree, by a link
+# Two commands at once in a tree build one after the other. app/run in a tree that was copied with its build folder configures and builds anew, and says so; in its own tree, by a link
 # to it too, it keeps what is built. By a cmake that only tells what it is asked for.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
@@ -44,4 +44,18 @@ for home in "$work/own tree" "$work/tree that was moved away"; do
   [ ! -e copy/build/release/object.o ] || fail "a copy of $home keeps objects of the other sources"
   grep -qF "is a build of $home" stderr || fail "a copy of $home: not told: $(<stderr)"
 done
+
+# Two commands at once build one after the other. What is started afterwards has no lock.
+printf '#!/bin/sh\necho begin >>"%s/order"\nsleep 0.3\necho end >>"%s/order"\n' "$work" "$work" >bin/cmake
+make_tree "$work/shared" "$source_dir" "$work/shared"
+for number in 1 2; do
+  (
+    PATH=$work/bin:$PATH && source shared/app/prepare && prepare_build release OFF epicyclic
+    exec bash -c 'ls -l /proc/$$/fd'
+  ) >at_once.$number 2>&1 &
+done
+wait
+[ "$(tr '\n' ' ' <order)" = 'begin end begin end ' ] || fail "two commands build at once: $(<order)"
+[ "$(grep -l 'waiting for another command' at_once.? | wc -l)" = 1 ] || fail "it is not said that one of them waits: $(cat at_once.?)"
+! grep -q 'prepare.lock' at_once.? || fail "the lock is kept: $(cat at_once.?)"
 finish
