@@ -88,7 +88,7 @@ int report_command(const Arguments& arguments);
 /// @returns the file
 /// @throws InputError
 std::filesystem::path write_report(const std::vector<std::filesystem::path>& folders,
-                                   const std::filesystem::path& output);
+                                   const std::filesystem::path& output, int threads);
 int merge_command(const Arguments& arguments);
 int serve_command(const Arguments& arguments);
 int keys_command(const Arguments& arguments);

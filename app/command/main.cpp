@@ -364,7 +364,7 @@ int run(int argc, char** argv) {
     const bool is_complete = result == done || result == done_with_failures;
     if (!arguments.report || !is_complete || ranks.rank() > 0) return result;
     arguments.report_folders = {arguments.output};
-    const std::string page = write_report(arguments.report_folders, {}).string();
+    const std::string page = write_report(arguments.report_folders, {}, arguments.threads).string();
     if (arguments.json)
       print_message("open {}\n", page);
     else

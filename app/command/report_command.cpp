@@ -37,10 +37,10 @@ std::filesystem::path output_of(const std::vector<std::filesystem::path>& folder
 }  // namespace
 
 std::filesystem::path write_report(const std::vector<std::filesystem::path>& folders,
-                                   const std::filesystem::path& output) {
+                                   const std::filesystem::path& output, int threads) {
   ReportData data;
   nlohmann::json studies = nlohmann::json::array();
-  for (const auto& folder : folders) studies.push_back(study_report(folder, data, give_up_if_stopped));
+  for (const auto& folder : folders) studies.push_back(study_report(folder, data, give_up_if_stopped, threads));
   const std::filesystem::path file = output_of(folders, output);
   std::string title;
   for (const auto& study : studies) title += (title.empty() ? "" : ", ") + study["title"].get<std::string>();
@@ -56,7 +56,7 @@ std::filesystem::path write_report(const std::vector<std::filesystem::path>& fol
 }
 
 int report_command(const Arguments& arguments) {
-  const std::filesystem::path file = write_report(arguments.report_folders, arguments.output);
+  const std::filesystem::path file = write_report(arguments.report_folders, arguments.output, arguments.threads);
   if (arguments.json)
     print("{}\n",
           nlohmann::json{{"report", file.string()}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));

@@ -234,8 +234,8 @@ class InputList {
 
 class StudyReport {
  public:
-  StudyReport(std::filesystem::path folder, ReportData& data, const std::function<void()>& stop_here)
-      : folder_(std::move(folder)), data_(data), stop_here_(stop_here), run_(run_of(folder_)) {
+  StudyReport(std::filesystem::path folder, ReportData& data, const std::function<void()>& stop_here, int threads)
+      : folder_(std::move(folder)), data_(data), stop_here_(stop_here), threads_(threads), run_(run_of(folder_)) {
     complete_ = run_.value("state", json()) == "complete";
     if (complete_) {
       auto files = store::manifest_from(run_.value("files", json()));
@@ -721,7 +721,8 @@ class StudyReport {
         summary.orbit = studies::state_on(store_->read(point), model_at(point).dimension);
       points.push_back(std::move(summary));
     }
-    const ChangeMultipliers changes = change_multipliers(points, model_at, input_.study.integrator, stop_here_);
+    const ChangeMultipliers changes =
+        change_multipliers(points, model_at, input_.study.integrator, stop_here_, threads_);
     if (changes.left_out > 0)
       leave_out(fmt::format("Multipliers at {}: the orbits are too long.",
                             counted(changes.left_out, "changes of the regime", "change of the regime")));
@@ -789,6 +790,7 @@ class StudyReport {
   std::filesystem::path folder_;
   ReportData& data_;
   const std::function<void()>& stop_here_;
+  int threads_;
   json run_;
   bool complete_ = false;
   store::Manifest files_;
@@ -816,8 +818,9 @@ nlohmann::json run_of(const std::filesystem::path& folder) {
 
 double micrometres_per_length_scale() { return 1e6 * model::length_scale_m; }
 
-json study_report(const std::filesystem::path& folder, ReportData& data, const std::function<void()>& stop_here) {
-  return StudyReport(folder, data, stop_here).report();
+json study_report(const std::filesystem::path& folder, ReportData& data, const std::function<void()>& stop_here,
+                  int threads) {
+  return StudyReport(folder, data, stop_here, threads).report();
 }
 
 }  // namespace epicyclic::app

@@ -20,11 +20,12 @@ namespace epicyclic::app {
 
 /// Changes nothing in the folder. A study of points that is not complete is reported as far as it has come.
 /// @param data       takes the columns
-/// @param stop_here  called between points; may throw
+/// @param stop_here  called between points, on each thread; may throw
+/// @param threads    no effect on the result
 /// @returns the study for the header
 /// @throws InputError when there is no study in it, or nothing of it can be shown yet; DamagedData when its files are
 /// not what they were
 [[nodiscard]] nlohmann::json study_report(const std::filesystem::path& folder, ReportData& data,
-                                          const std::function<void()>& stop_here);
+                                          const std::function<void()>& stop_here, int threads = 1);
 
 }  // namespace epicyclic::app

@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "studies/orbit_across.hpp"
+#include "studies/parallel_for.hpp"
 
 namespace epicyclic::app {
 
@@ -45,26 +46,26 @@ std::optional<studies::OrbitAcross> follow(const Neighbours& pair,
 }
 
 /// Both directions often have the same change.
-struct Known {
-  Neighbours pair;
-  std::optional<studies::OrbitAcross> across;
-
-  [[nodiscard]] bool is_of(const Neighbours& of) const {
-    const double largest = pair.first->evidence.largest_multiplier;
-    return of.first->point.value == pair.first->point.value && of.second->point.value == pair.second->point.value &&
-           of.first->period == pair.first->period && largest > 0.0 &&
-           std::abs(of.first->evidence.largest_multiplier - largest) <= same_multiplier * largest;
-  }
-};
+bool same_change(const Neighbours& known, const Neighbours& of) {
+  const double largest = known.first->evidence.largest_multiplier;
+  return of.first->point.value == known.first->point.value && of.second->point.value == known.second->point.value &&
+         of.first->period == known.first->period && largest > 0.0 &&
+         std::abs(of.first->evidence.largest_multiplier - largest) <= same_multiplier * largest;
+}
 
 }  // namespace
 
 ChangeMultipliers change_multipliers(std::span<const studies::PointSummary> points,
                                      const std::function<model::DynamicModel(std::size_t)>& model_at,
                                      const integrate::IntegratorOptions& integrator,
-                                     const std::function<void()>& stop_here) {
+                                     const std::function<void()>& stop_here, int threads) {
   ChangeMultipliers changes;
-  std::vector<Known> known;
+  std::vector<Neighbours> followed;  // each once
+  struct Row {
+    Neighbours pair;
+    std::size_t orbit;  // of those that are followed
+  };
+  std::vector<Row> rows;
   int periods = 0;
   for (const studies::Direction direction : {studies::Direction::up, studies::Direction::down}) {
     std::vector<const studies::PointSummary*> along;
@@ -76,33 +77,38 @@ ChangeMultipliers change_multipliers(std::span<const studies::PointSummary> poin
       if (along[k]->regime == along[k - 1]->regime && along[k]->period == along[k - 1]->period) continue;
       const auto pair = with_orbit(along[k - 1], along[k]);
       if (!pair) continue;
-      const auto [point, other] = *pair;
-      std::optional<studies::OrbitAcross> across;
-      const auto same = std::ranges::find_if(known, [&](const Known& one) { return one.is_of(*pair); });
-      if (same != known.end()) {
-        across = same->across;
-      } else if (point->period > period_max || periods + point->period > periods_max) {
-        ++changes.left_out;
-        continue;
-      } else {
-        stop_here();
-        periods += point->period;
-        across = follow(*pair, model_at, integrator);
-        known.push_back({*pair, across});
+      const int period = pair->first->period;
+      const auto same = std::ranges::find_if(followed, [&](const Neighbours& one) { return same_change(one, *pair); });
+      if (same == followed.end()) {
+        if (period > period_max || periods + period > periods_max) {
+          ++changes.left_out;
+          continue;
+        }
+        periods += period;
       }
-      if (!across) continue;
-      const bool found = across->found;
-      const std::array<double, ChangeMultipliers::names.size()> row = {static_cast<double>(point->point.index),
-                                                                       static_cast<double>(other->point.index),
-                                                                       across->here.real(),
-                                                                       across->here.imag(),
-                                                                       found ? 1.0 : 0.0,
-                                                                       found ? across->unstable : nan,
-                                                                       across->one_kind ? 1.0 : 0.0,
-                                                                       found ? across->there.real() : nan,
-                                                                       found ? across->there.imag() : nan};
-      for (std::size_t i = 0; i < row.size(); ++i) changes.columns[i].push_back(row[i]);
+      rows.push_back({*pair, static_cast<std::size_t>(same - followed.begin())});
+      if (same == followed.end()) followed.push_back(*pair);
     }
+  }
+  std::vector<std::optional<studies::OrbitAcross>> orbits(followed.size());
+  studies::parallel_for(followed.size(), threads, nullptr, [&](std::size_t k) {
+    stop_here();
+    orbits[k] = follow(followed[k], model_at, integrator);
+  });
+  for (const auto& [pair, orbit] : rows) {
+    const auto& across = orbits[orbit];
+    if (!across) continue;
+    const bool found = across->found;
+    const std::array<double, ChangeMultipliers::names.size()> row = {static_cast<double>(pair.first->point.index),
+                                                                     static_cast<double>(pair.second->point.index),
+                                                                     across->here.real(),
+                                                                     across->here.imag(),
+                                                                     found ? 1.0 : 0.0,
+                                                                     found ? across->unstable : nan,
+                                                                     across->one_kind ? 1.0 : 0.0,
+                                                                     found ? across->there.real() : nan,
+                                                                     found ? across->there.imag() : nan};
+    for (std::size_t i = 0; i < row.size(); ++i) changes.columns[i].push_back(row[i]);
   }
   return changes;
 }

@@ -26,11 +26,12 @@ struct ChangeMultipliers {
 /// Of two periodic neighbours the orbit is that of the period that divides the other one, or else that of the earlier
 /// point of the sweep.
 /// @param points     with `orbit`, in any order
-/// @param model_at   by the index of a point
-/// @param stop_here  called between changes; may throw
+/// @param model_at   by the index of a point; called from several threads at once
+/// @param stop_here  called between changes, on each thread; may throw
+/// @param threads    no effect on the result
 [[nodiscard]] ChangeMultipliers change_multipliers(std::span<const studies::PointSummary> points,
                                                    const std::function<model::DynamicModel(std::size_t)>& model_at,
                                                    const integrate::IntegratorOptions& integrator,
-                                                   const std::function<void()>& stop_here);
+                                                   const std::function<void()>& stop_here, int threads = 1);
 
 }  // namespace epicyclic::app

@@ -43,7 +43,8 @@ studies::PointSummary point(std::size_t index, Direction direction, Regime regim
 }
 
 ChangeMultipliers of(const std::vector<studies::PointSummary>& points) {
-  return change_multipliers(points, oscillator, {}, [] {});
+  return change_multipliers(
+      points, oscillator, {}, [] {}, 2);
 }
 
 std::vector<double> column(const ChangeMultipliers& changes, std::string_view name) {

@@ -2,8 +2,8 @@
 # fresh.sh FOLDER [small]
 #
 # Called by tests/fresh_debian --packages, as root on a fresh Debian 12: installs the packages in FOLDER,
-# computes the main job, and tries what the packages bring. Purged, they leave nothing. Prints sizes and
-# seconds; exit code 1 if something fails.
+# computes the main job, and tries what the packages bring. Purged, they leave nothing. Prints sizes, and
+# seconds and CPU seconds of each step; exit code 1 if something fails.
 set -euo pipefail
 folder=$1
 failed=0
@@ -20,19 +20,24 @@ size_before=$(du -sxk --exclude=/var / 2>/dev/null | cut -f 1)
 cd /tmp
 begun=$(date +%s.%N)
 since() { awk -v a="$begun" -v b="$(date +%s.%N)" 'BEGIN { printf "%.1f", b - a }'; }
+echo "$(nproc) cores, load $(cut -d ' ' -f 1-3 /proc/loadavg)"
 # "small": without what gnuplot recommends.
 small=()
 [ "${2:-}" != small ] || small=(--no-install-recommends gnuplot-nox fonts-dejavu-core)
-apt-get -q install -y "${small[@]}" "$folder"/epicyclic_*.deb >/tmp/apt.log 2>&1 || { cat /tmp/apt.log && exit 1; }
-echo "installed after $(since) s, $(($(du -sxk --exclude=/var / 2>/dev/null | cut -f 1) - size_before)) kB with all that it needs"
+TIMEFORMAT='apt: %R s, CPU %U + %S s'
+time apt-get -q install -y "${small[@]}" "$folder"/epicyclic_*.deb >/tmp/apt.log 2>&1 || { cat /tmp/apt.log && exit 1; }
+installed=$(since)
 ! command -v g++ cc >/dev/null || fail "a compiler is there"
-TIMEFORMAT='main job: %R s, of them %U s of the processors'
+TIMEFORMAT='main job: %R s, CPU %U + %S s'
 time epicyclic sweep tang2020_calibrated_speed >/tmp/job.log 2>&1 || { cat /tmp/job.log && fail "the main job"; }
-epicyclic report out/tang2020_calibrated_speed >/dev/null 2>&1 || fail "report"
+TIMEFORMAT='report: %R s, CPU %U + %S s'
+time epicyclic report out/tang2020_calibrated_speed >/dev/null 2>&1 || fail "report"
+done_after=$(since)
+echo "installed after $installed s, $(($(du -sxk --exclude=/var / 2>/dev/null | cut -f 1) - size_before)) kB with all that it needs"
 for file in figures/bifurcation_delta_sp.png sweep.md report.html; do
   [ -s out/tang2020_calibrated_speed/$file ] || fail "the main job left no $file"
 done
-echo "figure and report after $(since) s from the beginning of apt, on $(nproc) cores"
+echo "figure and report after $done_after s from the beginning of apt, load $(cut -d ' ' -f 1-3 /proc/loadavg)"
 epicyclic doctor || fail "doctor"
 
 apt-get -q install -y "$folder"/*.deb >/tmp/apt.log 2>&1 || { cat /tmp/apt.log && exit 1; }
