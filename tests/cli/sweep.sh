@@ -20,8 +20,8 @@ done
 same_results t1 t2
 same_results t1 t8
 # Segments, which start from a pass that threads share: again and again, since who asks first is a matter of chance.
-many=("${speeds[@]}" --set /study/points=129 --set /study/coarse_periods=3 --set '/study/directions=["up"]' --set /study/transient_periods=2
-  --set /study/recorded_periods=2 --set /study/classification_periods=0 --set /integrator/relative_tolerance=1e-5)
+many=("${speeds[@]}" --set /study/points=129 --set /study/output_phases=8 --set /study/coarse_periods=3 --set '/study/directions=["up"]'
+  --set /study/transient_periods=2 --set /study/recorded_periods=2 --set /study/classification_periods=0 --set /integrator/relative_tolerance=1e-5)
 for method in arkode-dopri5 lanes-cash-karp; do
   for threads in 1 2 3 5 8; do
     [ "$(code_of "$epicyclic" sweep "${many[@]}" --set "/integrator/method=$method" -o "many$threads" --threads "$threads")" = 0 ] ||
