@@ -641,7 +641,8 @@ std::vector<DrawnFigure> draw_continue_figures(const std::filesystem::path& fold
   std::vector<DrawnFigure> figures;
   for (const auto& [mesh, stem] :
        {std::pair(MeshKind::sun_planet, "branches_delta_sp"), std::pair(MeshKind::ring_planet, "branches_delta_rp")})
-    figures.push_back(BranchSketch(stem, output, traced, mesh).draw(folder));
+    if (mesh == MeshKind::sun_planet || output.planets > 1)
+      figures.push_back(BranchSketch(stem, output, traced, mesh).draw(folder));
   return figures;
 }
 

@@ -754,12 +754,14 @@ void write_run_h5(const std::filesystem::path& file, const RunOutput& output, co
 
 std::string run_summary(const RunOutput& output, const RunResult& r) {
   std::string text = fmt::format("# {}\n\n", output.points.title);
-  text +=
-      wrapped(fmt::format("Operating point: mesh frequency ratio Ω = {}: {}; half gaps b_sp = {}, b_rp = {} b_c (b_c = "
-                          "{:g} µm); static mesh force F_0 = {:.1f} N.",
-                          short_text(r.omega, 8), speed_words(r.point.meshes.speeds, r.point.meshes.mesh_frequency),
-                          short_text(output.half_gap_sp, 6), short_text(output.half_gap_rp, 6),
-                          1e6 * model::length_scale_m, r.static_force));
+  text += wrapped(fmt::format(
+      "Operating point: mesh frequency ratio Ω = {}: {}; {} b_c (b_c = {:g} µm); static mesh force "
+      "F_0 = {:.1f} N.",
+      short_text(r.omega, 8), speed_words(r.point.meshes.speeds, r.point.meshes.mesh_frequency),
+      r.point.meshes.is_pair() ? fmt::format("half gap b = {}", short_text(output.half_gap_sp, 6))
+                               : fmt::format("half gaps b_sp = {}, b_rp = {}", short_text(output.half_gap_sp, 6),
+                                             short_text(output.half_gap_rp, 6)),
+      1e6 * model::length_scale_m, r.static_force));
   if (!output.start.empty()) text += "\n" + wrapped(fmt::format("Start: {}.", fmt::join(output.start, "; ")));
   const std::string work = fmt::format("\nWork: {} right-hand sides.\n", r.point.rhs_evaluations);
   if (!ok(r)) {
