@@ -260,21 +260,12 @@ void check_mesh_for_dynamics(Problems& out, const std::string& pointer, const Me
 }
 
 /// A member of which nothing is given.
-bool is_missing(const CentralMember& m) { return m.mass_kg == 0.0 && m.inertia_over_r2_kg == 0.0; }
+bool is_absent(const CentralMember& m) { return m.mass_kg == 0.0 && m.inertia_over_r2_kg == 0.0; }
 
 /// Members and meshes of a planetary stage beside sun and planets.
 void check_stage_members(Problems& out, const Stage& s) {
-  for (const auto& [pointer, member] : {std::pair("/lumped/ring", &s.ring), std::pair("/lumped/carrier", &s.carrier)}) {
-    if (is_missing(*member)) {
-      out.add(pointer, "is missing");
-    } else {
-      check_member(out, pointer, *member);
-    }
-  }
-  if (s.ring_planet_mesh.stiffness_N_per_m == 0.0) {
-    out.add("/lumped/ring_planet_mesh", "is missing");
-    return;
-  }
+  check_member(out, "/lumped/ring", s.ring);
+  check_member(out, "/lumped/carrier", s.carrier);
   check_positive(out, "/lumped/ring_planet_mesh/stiffness_N_per_m", s.ring_planet_mesh.stiffness_N_per_m);
   check_pressure_angle(out, "/lumped/ring_planet_mesh", s.ring_planet_mesh,
                        sum(s.ring.base_radius_mm, s.planet.base_radius_mm, -1.0), s.centre_distance_mm);
@@ -283,7 +274,7 @@ void check_stage_members(Problems& out, const Stage& s) {
 /// A pair has no ring and no carrier.
 void check_pair_members(Problems& out, const Stage& s) {
   for (const auto& [pointer, member] : {std::pair("/lumped/ring", &s.ring), std::pair("/lumped/carrier", &s.carrier)})
-    if (!is_missing(*member)) out.add(pointer, "must be left out: a pair has gear 1 (sun) and gear 2 (planet) alone");
+    if (!is_absent(*member)) out.add(pointer, "must be left out: a pair has gear 1 (sun) and gear 2 (planet) alone");
   if (s.ring_planet_mesh.stiffness_N_per_m != 0.0)
     out.add("/lumped/ring_planet_mesh", "must be left out: a pair has one mesh, sun_planet_mesh");
   if (s.catalogue) out.add("/catalogue", "a pair is described by lumped values");
@@ -315,6 +306,11 @@ void check_torque_harmonics(Problems& out, const Stage& s) {
              {"/load/output_torque_sin", s.load.output_sin}};
   for (const auto& [key, ratios] : all)
     if (ratios && !s.is_pair()) out.add(key, "is for boundary pair only");
+}
+
+/// What else is wrong cannot be said of another number of planets.
+bool has_allowed_count(const Stage& s) {
+  return s.is_pair() ? s.planet_count == 1 : s.planet_count >= planets_min && s.planet_count <= planets_max;
 }
 
 }  // namespace
@@ -351,12 +347,15 @@ std::vector<Misfit> assembly_misfits(const Stage& stage) {
 
 std::vector<std::string> problems_for_modes(const Stage& s) {
   Problems out;
-  if (s.is_pair()) {
-    if (s.planet_count != 1)
-      out.add("/planets/count", "must be 1 with boundary pair (", static_cast<double>(s.planet_count), ")");
-  } else if (s.planet_count < planets_min || s.planet_count > planets_max)
-    out.add("/planets/count", "must be ", static_cast<double>(planets_min), " to ", static_cast<double>(planets_max),
-            " (", static_cast<double>(s.planet_count), ")");
+  if (!has_allowed_count(s)) {
+    const auto count = static_cast<double>(s.planet_count);
+    if (s.is_pair())
+      out.add("/planets/count", "must be 1 with boundary pair (", count, ")");
+    else
+      out.add("/planets/count", "must be ", static_cast<double>(planets_min), " to ", static_cast<double>(planets_max),
+              " (", count, ")");
+    return out.take();
+  }
   check_angles(out, s);
   check_member(out, "/lumped/sun", s.sun);
   check_positive(out, "/lumped/planet/mass_kg", s.planet.mass_kg);
@@ -374,6 +373,7 @@ std::vector<std::string> problems_for_modes(const Stage& s) {
 
 std::vector<std::string> problems_for_dynamics(const Stage& s) {
   Problems out;
+  if (!has_allowed_count(s)) return {};  // problems_for_modes() says so
   check_dynamics_of_member(out, "/lumped/sun", s.sun);
   if (!s.is_pair()) check_dynamics_of_member(out, "/lumped/ring", s.ring);
   if (!s.planet.teeth) out.add("/lumped/planet/teeth", "is missing; time integration needs it");

@@ -88,7 +88,7 @@ std::vector<std::string> state_names(const gear::Stage& stage) {
 }
 
 std::string why_no_state(const std::vector<double>& state, const gear::Stage& stage) {
-  if (state.empty() || stage.planet_count < gear::planets_min || stage.planet_count > gear::planets_max) return {};
+  if (state.empty() || stage.planet_count < 1 || stage.planet_count > gear::planets_max) return {};
   const std::size_t components = state_names(stage).size();
   if (state.size() == components) return {};
   return "has " + std::to_string(state.size()) + " numbers, must have " + std::to_string(components) +

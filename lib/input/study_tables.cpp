@@ -367,11 +367,12 @@ const Table<Stage>& lumped_table() {
   static const auto table = [] {
     Table<Stage> t("lumped", "The stage as lumped values.");
     t.object("sun", itself, sun_table()).required();
-    t.object("ring", of_stage_only(&Stage::ring), ring_table());
-    t.object("carrier", of_stage_only(&Stage::carrier), carrier_table());
+    const auto pair = [](const void* stage) { return static_cast<const Stage*>(stage)->is_pair(); };
+    t.object("ring", of_stage_only(&Stage::ring), ring_table()).required_unless(pair);
+    t.object("carrier", of_stage_only(&Stage::carrier), carrier_table()).required_unless(pair);
     t.object("planet", &Stage::planet, planet_table()).required();
     t.object("sun_planet_mesh", &Stage::sun_planet_mesh, mesh_table()).required();
-    t.object("ring_planet_mesh", of_stage_only(&Stage::ring_planet_mesh), mesh_table());
+    t.object("ring_planet_mesh", of_stage_only(&Stage::ring_planet_mesh), mesh_table()).required_unless(pair);
     t.number("ring_mesh_lead_1", of_stage_only(&Stage::ring_mesh_lead_1), between(-1, 1),
              "Share of a mesh period by which the ring-planet mesh leads the sun-planet mesh [-].");
     return t;
@@ -655,6 +656,9 @@ std::string schema_text() {
 
   ordered_json stage = stage_table().schema();
   ordered_json catalogue_stage = catalogue_stage_schema(stage);
+  // The keys of lumped_table() that are not required of a pair.
+  stage["if"] = {{"properties", {{"boundary", {{"const", "pair"}}}}}, {"required", {"boundary"}}};
+  stage["else"] = {{"properties", {{"lumped", {{"required", {"ring", "carrier", "ring_planet_mesh"}}}}}}};
   for (ordered_json* file : {&study, &stage, &catalogue_stage})
     (*file)["properties"][schema_key] = {
         {"type", "string"}, {"description", "Of a file: where the schema is, for editors. Nothing depends on it."}};

@@ -216,7 +216,8 @@ std::string figure_title(const input::Study& study) {
                          : b == gear::Boundary::star     ? "star"
                                                          : "fixed ring";
   std::string title = study.name.empty() ? study.stage.name : study.name;
-  title += study.stage.is_pair() ? ", pair of gears" : std::string(", boundary ") + boundary;
+  if (!title.empty()) title += ", ";
+  title += study.stage.is_pair() ? "pair of gears" : std::string("boundary ") + boundary;
   const bool speed_is_given = study.has_dynamics() && study.plan.kind()->at_given_speed &&
                               std::ranges::none_of(input::varied_parameters(study), [](const auto& varied) {
                                 return varied.axis.name == studies::speed_parameter;

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -99,7 +100,10 @@ struct StageRecord {
   double mesh_frequency = 0;  ///< omega_m [rad/s]
   gear::Speeds speeds{};
 
-  [[nodiscard]] bool is_pair() const { return sun_planet.size() == 1; }  ///< of gears, and not of a stage
+  /// Of a pair of gears: one planet, and nothing is known of a force of the ring's mesh.
+  [[nodiscard]] bool is_pair() const {
+    return sun_planet.size() == 1 && ring_planet.size() == 1 && std::isnan(ring_planet.front().force.largest);
+  }
 
   /// [S-share] of planets' meshes of one kind, by a number of each.
   /// @returns not a number of forces without a sum

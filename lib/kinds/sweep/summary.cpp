@@ -401,8 +401,10 @@ class Summary {
         s.lines.push_back(fmt::format("largest {}: {} at {}", more.what, short_text(*more.value, 4), more.at));
       s.numbers[number] = *more.value;
     };
-    add_line(largest_[0], largest_[1], "largest_kv");
-    add_line(largest_[2], largest_[3], "largest_dynamic_factor");
+    // Of the sun meshes and, of a stage, of the ring meshes.
+    const std::size_t kinds = largest_[1].what.find("ring") != std::string::npos ? 2 : 1;
+    add_line(largest_[0], largest_[kinds - 1], "largest_kv");
+    add_line(largest_[kinds], largest_[2 * kinds - 1], "largest_dynamic_factor");
   }
 
   void add_doubts(SweepSummary& s) const {
