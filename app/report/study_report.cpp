@@ -354,6 +354,7 @@ class StudyReport {
   }
 
   static std::string boundary_words(gear::Boundary boundary) {
+    if (boundary == gear::Boundary::pair) return "none: a lone pair of gears";
     if (boundary == gear::Boundary::as_printed) return "as printed (the equations as the paper prints them)";
     return boundary == gear::Boundary::star ? "star (the carrier is held)" : "fixed ring";
   }
@@ -630,6 +631,7 @@ class StudyReport {
     ReportTable table("histories", "", histories.front().size());
     for (std::size_t k = 0; k < histories.size(); ++k) {
       const std::string name(studies::ShortHistory::names[k]);
+      if (input_.study.stage.is_pair() && name.find("_rp_") != std::string::npos) continue;
       ReportColumn column = section_column(name);
       if (name.starts_with("force_"))
         column = {name, "N",
@@ -754,7 +756,8 @@ class StudyReport {
             section.names.push_back(cells[k]);
           }
         if (model && cells.size() < keys + model->dimension) model.reset();
-        if (model) section.names.insert(section.names.end(), {"delta_sp_1_rate", "delta_rp_1_rate"});
+        if (model) section.names.emplace_back("delta_sp_1_rate");
+        if (model && model->has_ring()) section.names.emplace_back("delta_rp_1_rate");
         section.columns.resize(section.names.size());
         return;
       }
@@ -778,7 +781,7 @@ class StudyReport {
       model::MeshDeflections d;
       model->deflections(0.0, state.data(), d);
       section.columns[at.size()].push_back(d.sun_planet_rate.front());
-      section.columns[at.size() + 1].push_back(d.ring_planet_rate.front());
+      if (model->has_ring()) section.columns[at.size() + 1].push_back(d.ring_planet_rate.front());
     });
     if (!is_table)
       throw store::DamagedData((folder_ / "poincare.csv").string() + ": is not a table that this program writes");

@@ -26,7 +26,7 @@ class Reader {
 
   /// @param model  may be empty
   void add(const studies::PointResult& r, const std::optional<model::DynamicModel>& model) {
-    const std::size_t deflections = 2 * r.meshes.sun_planet.size();
+    const std::size_t deflections = (r.meshes.is_pair() ? 1 : 2) * r.meshes.sun_planet.size();
     const bool has_section = r.poincare_rows() > 0 && r.poincare_columns > deflections && deflections > 0;
     if (has_section) add_section(r, model, deflections);
     records_.starts.push_back(records_.section.empty() ? 0.0 : static_cast<double>(records_.section.front().size()));
@@ -40,9 +40,12 @@ class Reader {
   void add_section(const studies::PointResult& r, const std::optional<model::DynamicModel>& model,
                    std::size_t deflections) {
     if (records_.names.empty()) {
-      for (const char* mesh : {"delta_sp_", "delta_rp_"})
-        for (std::size_t i = 1; i <= deflections / 2; ++i) records_.names.push_back(mesh + std::to_string(i));
-      if (model) records_.names.insert(records_.names.end(), {"delta_sp_1_rate", "delta_rp_1_rate"});
+      const bool pair = r.meshes.is_pair();
+      const std::size_t planets = pair ? deflections : deflections / 2;
+      for (std::size_t i = 1; i <= planets; ++i) records_.names.push_back("delta_sp_" + std::to_string(i));
+      for (std::size_t i = 1; i <= planets && !pair; ++i) records_.names.push_back("delta_rp_" + std::to_string(i));
+      if (model) records_.names.emplace_back("delta_sp_1_rate");
+      if (model && !pair) records_.names.emplace_back("delta_rp_1_rate");
       records_.section.resize(records_.names.size());
     }
     const std::size_t dimension = r.poincare_columns - deflections;
@@ -53,7 +56,7 @@ class Reader {
       if (!model) continue;
       model->deflections(0.0, row, d);
       records_.section[deflections].push_back(d.sun_planet_rate.front());
-      records_.section[deflections + 1].push_back(d.ring_planet_rate.front());
+      if (!r.meshes.is_pair()) records_.section[deflections + 1].push_back(d.ring_planet_rate.front());
     }
   }
 

@@ -122,6 +122,7 @@ double static_deflection_um(const Mesh& mesh, const MeshLoad& load) {
 }
 
 double mean_planet_load(const Stage& stage, double mesh_frequency) {
+  if (stage.is_pair()) return mean_mesh_load(stage, mesh_frequency).force_N;
   const PressureAngles alpha = pressure_angles(stage);
   return mean_mesh_load(stage, mesh_frequency).force_N *
          std::hypot(std::cos(alpha.sun_planet) + std::cos(alpha.ring_planet),

@@ -19,7 +19,8 @@ LineOfAction line_of(double r_1, double r_2, int teeth_1, double alpha, bool int
 }
 
 void require_geometry(const Stage& s) {
-  if (!s.sun.base_radius_mm || !s.planet.base_radius_mm || !s.ring.base_radius_mm || !s.sun.teeth || !s.planet.teeth)
+  if (!s.sun.base_radius_mm || !s.planet.base_radius_mm || !(s.is_pair() || s.ring.base_radius_mm) || !s.sun.teeth ||
+      !s.planet.teeth)
     throw DomainError("a line of action needs base radii and teeth of sun, planet and ring");
 }
 

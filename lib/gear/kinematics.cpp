@@ -20,6 +20,7 @@ constexpr double radian = std::numbers::pi / 180.0;
 
 Speeds speeds(const Stage& stage, double mesh_frequency) {
   const double z_s = teeth(stage.sun.teeth, "sun");
+  if (stage.is_pair()) return {mesh_frequency / z_s, 0.0};
   const double z_r = teeth(stage.ring.teeth, "ring");
   if (stage.boundary == Boundary::star) return {mesh_frequency / z_s, 0.0};
   const double carrier = mesh_frequency / z_r;
@@ -27,15 +28,17 @@ Speeds speeds(const Stage& stage, double mesh_frequency) {
 }
 
 Torques torques(const Stage& stage, double mesh_frequency) {
-  const double ratio = teeth(stage.ring.teeth, "ring") / teeth(stage.sun.teeth, "sun");
   const double drive = stage.load.power_kW ? *stage.load.power_kW * 1e3 / speeds(stage, mesh_frequency).sun
                                            : std::abs(stage.load.torque_Nm.value());
+  if (stage.is_pair()) return {drive, 0.0, 0.0};
+  const double ratio = teeth(stage.ring.teeth, "ring") / teeth(stage.sun.teeth, "sun");
   if (stage.boundary == Boundary::star) return {drive, ratio * drive, 0.0};
   return {drive, 0.0, (1.0 + ratio) * drive};
 }
 
 double planet_centrifugal_force(const Stage& stage, double mesh_frequency) {
   const double carrier = speeds(stage, mesh_frequency).carrier;
+  if (carrier == 0.0) return 0.0;
   return stage.planet.mass_kg * carrier * carrier * stage.centre_distance_mm.value() * 1e-3;
 }
 
@@ -52,6 +55,7 @@ PressureAngles pressure_angles(const Stage& stage) {
     sun_sum = *stage.sun.base_radius_mm + *stage.planet.base_radius_mm;
   if (stage.ring.base_radius_mm && stage.planet.base_radius_mm)
     ring_difference = *stage.ring.base_radius_mm - *stage.planet.base_radius_mm;
+  if (stage.is_pair()) return {angle(stage.sun_planet_mesh, sun_sum), 0.0};
   return {angle(stage.sun_planet_mesh, sun_sum), angle(stage.ring_planet_mesh, ring_difference)};
 }
 

@@ -1,7 +1,7 @@
 // Speeds, torques and angles of a planetary stage.
 //
 //   fixed ring, `as_printed`:  omega_c = omega_s z_s / (z_s + z_r) ,  omega_m = z_s (omega_s - omega_c) = z_r omega_c
-//   star:                      omega_c = 0 ,                          omega_m = z_s omega_s
+//   star, pair:                omega_c = 0 ,                          omega_m = z_s omega_s
 //   T_D = P / omega_s or given ;  T_c = (1 + z_r / z_s) T_D ;  T_r = (z_r / z_s) T_D (star)
 //   centrifugal force of a planet  M_p omega_c^2 r_c                                                   [G-cf]
 //   cos alpha_sp = (r_bs + r_bp) / r_c ,  cos alpha_rp = (r_br - r_bp) / r_c                           [G-kin]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <span>
 
 #include "gear/messages.hpp"
 #include "gear/reversal.hpp"
@@ -204,6 +205,7 @@ void check_torsion(Problems& out, const Stage& s) {
   const double k_su = s.sun.torsional_support_N_per_m;
   const double k_ru = s.ring.torsional_support_N_per_m;
   const double k_cu = s.carrier.torsional_support_N_per_m;
+  if (s.planet.torsional_support_N_per_m) out.add("/lumped/planet" + key, "is of gear 2 of a pair; planets have none");
   const char* name = s.boundary == Boundary::as_printed ? "as_printed"
                      : s.boundary == Boundary::star     ? "star"
                                                         : "fixed_ring";
@@ -236,12 +238,15 @@ void check_driver(Problems& out, const Stage& s) {
 }
 
 void check_compatibility(Problems& out, const Stage& s) {
-  if (!s.sun.teeth || !s.ring.teeth || !s.sun.base_radius_mm || !s.ring.base_radius_mm) return;
-  const double radii = *s.ring.base_radius_mm / *s.sun.base_radius_mm;
-  const double teeth = static_cast<double>(*s.ring.teeth) / *s.sun.teeth;
-  if (std::abs(radii / teeth - 1.0) > radii_tolerance)
-    out.add("/lumped/ring/base_radius_mm", "r_br / r_bs = ", radii, " does not fit z_r / z_s = ", teeth,
-            " (relative difference at most ", radii_tolerance, ")");
+  if (!s.sun.teeth || !s.sun.base_radius_mm) return;
+  if (!s.is_pair()) {
+    if (!s.ring.teeth || !s.ring.base_radius_mm) return;
+    const double radii = *s.ring.base_radius_mm / *s.sun.base_radius_mm;
+    const double teeth = static_cast<double>(*s.ring.teeth) / *s.sun.teeth;
+    if (std::abs(radii / teeth - 1.0) > radii_tolerance)
+      out.add("/lumped/ring/base_radius_mm", "r_br / r_bs = ", radii, " does not fit z_r / z_s = ", teeth,
+              " (relative difference at most ", radii_tolerance, ")");
+  }
   if (!s.planet.teeth || !s.planet.base_radius_mm) return;
   const double planet_radii = *s.planet.base_radius_mm / *s.sun.base_radius_mm;
   const double planet_teeth = static_cast<double>(*s.planet.teeth) / *s.sun.teeth;
@@ -252,6 +257,60 @@ void check_compatibility(Problems& out, const Stage& s) {
 
 void check_mesh_for_dynamics(Problems& out, const std::string& pointer, const Mesh& mesh) {
   if (!mesh.damping_ratio) out.add(pointer + "/damping_ratio", "is missing; time integration needs it");
+}
+
+/// A member of which nothing is given.
+bool is_absent(const CentralMember& m) { return m.mass_kg == 0.0 && m.inertia_over_r2_kg == 0.0; }
+
+/// Members and meshes of a planetary stage beside sun and planets.
+void check_stage_members(Problems& out, const Stage& s) {
+  check_member(out, "/lumped/ring", s.ring);
+  check_member(out, "/lumped/carrier", s.carrier);
+  check_positive(out, "/lumped/ring_planet_mesh/stiffness_N_per_m", s.ring_planet_mesh.stiffness_N_per_m);
+  check_pressure_angle(out, "/lumped/ring_planet_mesh", s.ring_planet_mesh,
+                       sum(s.ring.base_radius_mm, s.planet.base_radius_mm, -1.0), s.centre_distance_mm);
+}
+
+/// A pair has no ring and no carrier.
+void check_pair_members(Problems& out, const Stage& s) {
+  for (const auto& [pointer, member] : {std::pair("/lumped/ring", &s.ring), std::pair("/lumped/carrier", &s.carrier)})
+    if (!is_absent(*member)) out.add(pointer, "must be left out: a pair has gear 1 (sun) and gear 2 (planet) alone");
+  if (s.ring_planet_mesh.stiffness_N_per_m != 0.0)
+    out.add("/lumped/ring_planet_mesh", "must be left out: a pair has one mesh, sun_planet_mesh");
+  if (s.catalogue) out.add("/catalogue", "a pair is described by lumped values");
+  if (s.planet.pin_error_tangential_um || s.planet.pin_error_radial_um)
+    out.add("/lumped/planet", "pin errors are of planets in a carrier; a pair has error_mean_um of its mesh");
+  if (s.driver != Driver::sun) out.add("/driver", "must be sun: gear 1 drives a pair");
+  if (s.planet.torsional_support_N_per_m)
+    check_support(out, "/lumped/planet/torsional_support_N_per_m", *s.planet.torsional_support_N_per_m);
+}
+
+/// Bearings of a pair are rigid together or not at all; its torsional supports are finite.
+void check_pair_supports(Problems& out, const Stage& s) {
+  if (std::isfinite(s.sun.support_N_per_m) != std::isfinite(s.planet.bearing_N_per_m))
+    out.add("/lumped/planet/bearing_N_per_m",
+            "must be \"rigid\" if the support of gear 1 is, and a number if it is a number");
+  check_finite_support(out, "/lumped/sun/torsional_support_N_per_m", s.sun.torsional_support_N_per_m);
+  check_finite_support(out, "/lumped/planet/torsional_support_N_per_m",
+                       s.planet.torsional_support_N_per_m.value_or(0.0));
+}
+
+/// Harmonics of the torques, which gear 1 and gear 2 of a pair have.
+void check_torque_harmonics(Problems& out, const Stage& s) {
+  const struct {
+    const char* key;
+    const std::optional<std::vector<double>>& ratios;
+  } all[] = {{"/load/input_torque_cos", s.load.input_cos},
+             {"/load/input_torque_sin", s.load.input_sin},
+             {"/load/output_torque_cos", s.load.output_cos},
+             {"/load/output_torque_sin", s.load.output_sin}};
+  for (const auto& [key, ratios] : all)
+    if (ratios && !s.is_pair()) out.add(key, "is for boundary pair only");
+}
+
+/// What else is wrong cannot be said of another number of planets.
+bool has_allowed_count(const Stage& s) {
+  return s.is_pair() ? s.planet_count == 1 : s.planet_count >= planets_min && s.planet_count <= planets_max;
 }
 
 }  // namespace
@@ -288,46 +347,59 @@ std::vector<Misfit> assembly_misfits(const Stage& stage) {
 
 std::vector<std::string> problems_for_modes(const Stage& s) {
   Problems out;
-  if (s.planet_count < planets_min || s.planet_count > planets_max)
-    out.add("/planets/count", "must be ", static_cast<double>(planets_min), " to ", static_cast<double>(planets_max),
-            " (", static_cast<double>(s.planet_count), ")");
+  if (!has_allowed_count(s)) {
+    const auto count = static_cast<double>(s.planet_count);
+    if (s.is_pair())
+      out.add("/planets/count", "must be 1 with boundary pair (", count, ")");
+    else
+      out.add("/planets/count", "must be ", static_cast<double>(planets_min), " to ", static_cast<double>(planets_max),
+              " (", count, ")");
+    return out.take();
+  }
   check_angles(out, s);
   check_member(out, "/lumped/sun", s.sun);
-  check_member(out, "/lumped/ring", s.ring);
-  check_member(out, "/lumped/carrier", s.carrier);
   check_positive(out, "/lumped/planet/mass_kg", s.planet.mass_kg);
   check_positive(out, "/lumped/planet/inertia_over_r2_kg", s.planet.inertia_over_r2_kg);
   check_support(out, "/lumped/planet/bearing_N_per_m", s.planet.bearing_N_per_m);
   check_positive(out, "/lumped/sun_planet_mesh/stiffness_N_per_m", s.sun_planet_mesh.stiffness_N_per_m);
-  check_positive(out, "/lumped/ring_planet_mesh/stiffness_N_per_m", s.ring_planet_mesh.stiffness_N_per_m);
   check_pressure_angle(out, "/lumped/sun_planet_mesh", s.sun_planet_mesh,
                        sum(s.sun.base_radius_mm, s.planet.base_radius_mm, 1.0), s.centre_distance_mm);
-  check_pressure_angle(out, "/lumped/ring_planet_mesh", s.ring_planet_mesh,
-                       sum(s.ring.base_radius_mm, s.planet.base_radius_mm, -1.0), s.centre_distance_mm);
+  if (s.is_pair())
+    check_pair_members(out, s);
+  else
+    check_stage_members(out, s);
   return out.take();
 }
 
 std::vector<std::string> problems_for_dynamics(const Stage& s) {
   Problems out;
+  if (!has_allowed_count(s)) return {};  // problems_for_modes() says so
   check_dynamics_of_member(out, "/lumped/sun", s.sun);
-  check_dynamics_of_member(out, "/lumped/ring", s.ring);
+  if (!s.is_pair()) check_dynamics_of_member(out, "/lumped/ring", s.ring);
   if (!s.planet.teeth) out.add("/lumped/planet/teeth", "is missing; time integration needs it");
   if (!s.planet.base_radius_mm) out.add("/lumped/planet/base_radius_mm", "is missing; time integration needs it");
-  if (!s.centre_distance_mm) out.add("/planets/centre_distance_mm", "is missing; time integration needs it");
-  check_finite_support(out, "/lumped/sun/support_N_per_m", s.sun.support_N_per_m);
-  check_finite_support(out, "/lumped/ring/support_N_per_m", s.ring.support_N_per_m);
-  check_finite_support(out, "/lumped/carrier/support_N_per_m", s.carrier.support_N_per_m);
-  check_finite_support(out, "/lumped/planet/bearing_N_per_m", s.planet.bearing_N_per_m);
+  if (!s.is_pair()) {
+    if (!s.centre_distance_mm) out.add("/planets/centre_distance_mm", "is missing; time integration needs it");
+    check_finite_support(out, "/lumped/sun/support_N_per_m", s.sun.support_N_per_m);
+    check_finite_support(out, "/lumped/ring/support_N_per_m", s.ring.support_N_per_m);
+    check_finite_support(out, "/lumped/carrier/support_N_per_m", s.carrier.support_N_per_m);
+    check_finite_support(out, "/lumped/planet/bearing_N_per_m", s.planet.bearing_N_per_m);
+  }
   if (!(s.planet.bearing_N_per_m > 0.0))
     out.add("/lumped/planet/bearing_N_per_m", "must be positive (", s.planet.bearing_N_per_m, ")");
-  check_torsion(out, s);
-  check_driver(out, s);
+  if (s.is_pair()) {
+    check_pair_supports(out, s);
+  } else {
+    check_torsion(out, s);
+    check_driver(out, s);
+  }
+  check_torque_harmonics(out, s);
   check_compatibility(out, s);
   const struct {
     const char* pointer;
     const Mesh& mesh;
   } meshes[] = {{"/lumped/sun_planet_mesh", s.sun_planet_mesh}, {"/lumped/ring_planet_mesh", s.ring_planet_mesh}};
-  for (const auto& [pointer, mesh] : meshes) {
+  for (const auto& [pointer, mesh] : std::span(meshes).first(s.is_pair() ? 1 : 2)) {
     check_mesh_for_dynamics(out, pointer, mesh);
     check_per_planet(out, std::string(pointer) + "/error_amplitude_um", mesh.error_amplitude_um, s.planet_count);
     check_per_planet(out, std::string(pointer) + "/error_phase_deg", mesh.error_phase_deg, s.planet_count);

@@ -1,4 +1,4 @@
-// The planetary stage in SI units, as lumped values: what the model needs and nothing else.
+// The planetary stage, or a lone gear pair, in SI units, as lumped values: what the model needs and nothing else.
 //
 // Catalogue data (module, modification, bores ...) are converted to this form; users with measured or finite-element
 // data give it directly. Members are named as in Tang et al. 2020, section 2: sun s, planets p_i, ring r, carrier c.
@@ -38,6 +38,7 @@ enum class Boundary {
                ///< carrier
   fixed_ring,  ///< ring grounded through k_ru, carrier is the free output
   star,        ///< carrier grounded through k_cu, ring is the free output
+  pair,        ///< no stage but a lone pair: gear 1 in the place of the sun, gear 2 in that of the only planet
 };
 
 /// The member through which power enters the stage.
@@ -92,13 +93,14 @@ struct SunBearing {
 struct Planet {
   double mass_kg = 0;
   double inertia_over_r2_kg = 0;
-  double bearing_N_per_m = 0;  ///< k_pix = k_piy = k_picu; `rigid` in modes only
+  double bearing_N_per_m = 0;  ///< k_pix = k_piy = k_picu; `rigid` in modes and of a pair
   SupportDamping damping;
   std::optional<int> teeth;
   std::optional<double> base_radius_mm;
   /// Position errors of the pins in the carrier: one number, or one per planet [um]. Tangential: towards rising angle;
   /// radial: outward.
   std::optional<std::vector<double>> pin_error_tangential_um{}, pin_error_radial_um{};
+  std::optional<double> torsional_support_N_per_m{};  ///< of gear 2 of a pair, on its base radius [N/m]
 };
 
 /// Friction over phase = s / 2 pi on the common s of planet 1, in [0, 1), rising; smooth between breakpoints.
@@ -175,10 +177,13 @@ struct Mesh {
   Friction friction;
 };
 
-/// Load of the stage: exactly one of the two.
+/// Load of the stage: exactly one of power and torque.
 struct Load {
   std::optional<double> power_kW;   ///< T_D = P / omega_s: falls with speed
   std::optional<double> torque_Nm;  ///< T_D on the sun, the same at every speed; its sign decides the loaded flanks
+  /// Of a pair: harmonics h = 1, 2, ... of the mesh frequency in the torques on gear 1 and gear 2, over their means,
+  /// on the phase s of the mesh [-].
+  std::optional<std::vector<double>> input_cos{}, input_sin{}, output_cos{}, output_sin{};
 };
 
 struct Stage {
@@ -195,6 +200,8 @@ struct Stage {
   std::optional<Catalogue> catalogue{};  ///< what the lumped values were computed from, if they were
   double ring_mesh_lead_1 = 0;           ///< lambda_sr: share of a mesh period by which the ring mesh leads [-]
   Load load;
+
+  [[nodiscard]] bool is_pair() const { return boundary == Boundary::pair; }
 
   /// phi_i [deg], i = 0 .. N-1: as given, or equally spaced from 0.
   [[nodiscard]] std::vector<double> planet_angles_deg() const;

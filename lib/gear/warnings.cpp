@@ -262,7 +262,7 @@ void check_error(Warnings& out, const std::string& pointer, const Mesh& mesh, do
 
 /// A member whose support yields to its own weight by more than a module.
 void check_sag(Warnings& out, const std::string& pointer, double mass, double stiffness, double module) {
-  if (!(stiffness > 0.0)) return;
+  if (!(stiffness > 0.0) || !std::isfinite(stiffness)) return;
   const double modules = 1e3 * mass * gravity / stiffness / module;
   constexpr double beyond_any_machine = 1e9;
   if (modules > beyond_any_machine)
@@ -279,6 +279,7 @@ void check_friction(Warnings& out, const Stage& s) {
   const auto words = [](const Friction& f) {
     return f.ehl ? "lubricated contact" : f.coefficient ? "a coefficient of friction" : f.table ? "a table" : "none";
   };
+  if (s.is_pair()) return;
   const std::string sun = words(s.sun_planet_mesh.friction);
   const std::string ring = words(s.ring_planet_mesh.friction);
   if (sun != ring)
@@ -302,15 +303,16 @@ void check_gaps(Warnings& out, const Stage& s) {
                    "; the key takes half of it");
   };
   backlash("/lumped/sun_planet_mesh", "sun-planet", s.sun_planet_mesh);
-  backlash("/lumped/ring_planet_mesh", "ring-planet", s.ring_planet_mesh);
+  if (!s.is_pair()) backlash("/lumped/ring_planet_mesh", "ring-planet", s.ring_planet_mesh);
   const double modules = 1e-3 * s.sun_bearing.clearance_half_um / module;
   if (modules > half_clearance_most)
     out.add(Rank::doubtful, modules / half_clearance_most, "/lumped/sun/bearing_clearance_half_um", "clearance", "is ",
             s.sun_bearing.clearance_half_um, " um, ", modules,
             " modules: the sun may move out of its meshes before its bearing holds it");
   check_error(out, "/lumped/sun_planet_mesh", s.sun_planet_mesh, module, *s.planet.teeth);
-  check_error(out, "/lumped/ring_planet_mesh", s.ring_planet_mesh, module, *s.planet.teeth);
   check_sag(out, "/lumped/sun/support_N_per_m", s.sun.mass_kg, s.sun.support_N_per_m, module);
+  if (s.is_pair()) return;
+  check_error(out, "/lumped/ring_planet_mesh", s.ring_planet_mesh, module, *s.planet.teeth);
   check_sag(out, "/lumped/ring/support_N_per_m", s.ring.mass_kg, s.ring.support_N_per_m, module);
   check_sag(out, "/lumped/carrier/support_N_per_m", s.carrier.mass_kg, s.carrier.support_N_per_m, module);
   check_sag(out, "/lumped/planet/bearing_N_per_m", s.planet.mass_kg, s.planet.bearing_N_per_m, module);
@@ -442,7 +444,7 @@ std::vector<Warning> catalogue_warnings(const GearSet& set, const Stage& stage) 
 
 std::vector<Warning> mass_warnings(const Stage& s) {
   Warnings out;
-  if (!s.catalogue)
+  if (!s.catalogue && !s.is_pair())
     for (const auto& [name, mass, inertia] : {std::tuple("sun", s.sun.mass_kg, s.sun.inertia_over_r2_kg),
                                               std::tuple("planet", s.planet.mass_kg, s.planet.inertia_over_r2_kg),
                                               std::tuple("ring", s.ring.mass_kg, s.ring.inertia_over_r2_kg),
@@ -475,11 +477,13 @@ std::vector<Warning> warnings_for_dynamics(const Stage& s) {
   Warnings out;
   check_assembly(out, s);
   check_damping(out, "/lumped/sun", s.sun.support_N_per_m, s.sun.mass_kg, s.sun.damping);
-  check_damping(out, "/lumped/ring", s.ring.support_N_per_m, s.ring.mass_kg, s.ring.damping);
-  check_damping(out, "/lumped/carrier", s.carrier.support_N_per_m, s.carrier.mass_kg, s.carrier.damping);
+  if (!s.is_pair()) {
+    check_damping(out, "/lumped/ring", s.ring.support_N_per_m, s.ring.mass_kg, s.ring.damping);
+    check_damping(out, "/lumped/carrier", s.carrier.support_N_per_m, s.carrier.mass_kg, s.carrier.damping);
+    check_mesh_damping(out, "/lumped/ring_planet_mesh", s.ring_planet_mesh);
+  }
   check_damping(out, "/lumped/planet", s.planet.bearing_N_per_m, s.planet.mass_kg, s.planet.damping);
   check_mesh_damping(out, "/lumped/sun_planet_mesh", s.sun_planet_mesh);
-  check_mesh_damping(out, "/lumped/ring_planet_mesh", s.ring_planet_mesh);
   check_gaps(out, s);
   check_friction(out, s);
   return out.take();
@@ -493,7 +497,7 @@ std::vector<Warning> warnings_at(const Stage& s, double mesh_frequency, const Ge
   check_speed(out, "/lumped/sun", "its teeth", w.sun, *s.sun.base_radius_mm, density);
   check_speed(out, "/lumped/planet", "its teeth", w.carrier - mesh_frequency / *s.planet.teeth,
               *s.planet.base_radius_mm, density);
-  check_speed(out, "/lumped/carrier", "the planets' axes", w.carrier, *s.centre_distance_mm, density);
+  if (!s.is_pair()) check_speed(out, "/lumped/carrier", "the planets' axes", w.carrier, *s.centre_distance_mm, density);
 
   const MeshLoad load = mean_mesh_load(s, mesh_frequency);
   const PressureAngles alpha = pressure_angles(s);
@@ -508,7 +512,8 @@ std::vector<Warning> warnings_at(const Stage& s, double mesh_frequency, const Ge
       check_pressure(out, *m.friction.ehl, line, load, words);
   };
   mesh("sun_planet", s.sun_planet_mesh, sun_planet_line(s), set == nullptr ? nullptr : &set->sun_planet);
-  mesh("ring_planet", s.ring_planet_mesh, ring_planet_line(s), set == nullptr ? nullptr : &set->ring_planet);
+  if (!s.is_pair())
+    mesh("ring_planet", s.ring_planet_mesh, ring_planet_line(s), set == nullptr ? nullptr : &set->ring_planet);
   check_deflection(out, "/lumped/planet/bearing_N_per_m", "the planet's bearing", mean_planet_load(s, mesh_frequency),
                    s.planet.bearing_N_per_m, module);
   if (s.boundary == Boundary::fixed_ring && std::isfinite(s.ring.torsional_support_N_per_m))

@@ -31,6 +31,10 @@ std::vector<Assignment> written_values(Study& study, std::span<const PointerValu
     for (const std::string& pointer : named->pointers) written.push_back({pointer, {}, {}});
   }
   const json as_written = study_table().write(study);
+  // Of a parameter that sets both meshes, a pair of gears has one.
+  std::erase_if(written, [&](const Assignment& w) {
+    return w.value.is_null() && !as_written.contains(json::json_pointer(w.pointer));
+  });
   for (Assignment& w : written)
     if (w.value.is_null()) w.value = as_written.at(json::json_pointer(w.pointer));
   return written;

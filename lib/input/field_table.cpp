@@ -644,7 +644,7 @@ void AnyTable::read_any(const json& value, const std::string& pointer, void* obj
     const std::string place = pointer + pointer_step(field.key);
     if (const auto it = value.find(field.key); it != value.end()) {
       field.read(*it, place, object, context);
-    } else if (field.is_required) {
+    } else if (field.is_required && !(field.excused && field.excused(object))) {
       context.add(Finding::Kind::missing_key, place, "is missing: " + field.description);
     }
   }
@@ -689,7 +689,7 @@ nlohmann::ordered_json AnyTable::schema_any(const void* plain) const {
     if (!property.contains("description")) property["description"] = field.description;
     const auto given = defaults.find(field.key);
     if (field.is_required) {
-      required.push_back(field.key);
+      if (!field.excused) required.push_back(field.key);
     } else if (given != defaults.end() && !given->is_object()) {
       property["default"] = *given;
     }

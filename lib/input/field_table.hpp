@@ -411,9 +411,16 @@ struct AnyField : FieldWords {
   std::function<bool(std::string_view rest, double value, const std::string& pointer, void* object, ReadContext&)>
       change;
 
+  std::function<bool(const void* object)> excused;  ///< a required key that this object need not have; may be empty
+
   AnyField& required() {
     is_required = true;
     return *this;
+  }
+  /// Required, but not of an object with some property.
+  AnyField& required_unless(std::function<bool(const void* object)> property) {
+    excused = std::move(property);
+    return required();
   }
 };
 

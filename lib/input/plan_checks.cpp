@@ -88,7 +88,7 @@ std::vector<std::string> state_names(const gear::Stage& stage) {
 }
 
 std::string why_no_state(const std::vector<double>& state, const gear::Stage& stage) {
-  if (state.empty() || stage.planet_count < gear::planets_min || stage.planet_count > gear::planets_max) return {};
+  if (state.empty() || stage.planet_count < 1 || stage.planet_count > gear::planets_max) return {};
   const std::size_t components = state_names(stage).size();
   if (state.size() == components) return {};
   return "has " + std::to_string(state.size()) + " numbers, must have " + std::to_string(components) +
@@ -123,7 +123,26 @@ void check_sweep(const Study& study, const IsBad& is_bad, ReadContext& context) 
   if (!is_bad("/study/parameter")) check_named_parameter(sweep.axis, "/study", is_bad, context);
 }
 
+namespace {
+
+/// Parameters of a ring, which a pair of gears does not have.
+void check_of_pair(const Study& study, ReadContext& context) {
+  if (!study.stage.is_pair()) return;
+  for (const VariedParameter& varied : varied_parameters(study)) {
+    const studies::NamedParameter* named = studies::find_parameter(varied.axis.name);
+    if (named == nullptr) continue;
+    if (std::ranges::all_of(named->pointers, [](const std::string& pointer) {
+          return pointer_within(pointer, "/stage/lumped/ring_planet_mesh");
+        }))
+      context.add(Finding::Kind::rule, varied.place + "/parameter",
+                  "is \"" + varied.axis.name + "\", but a pair of gears has no ring");
+  }
+}
+
+}  // namespace
+
 void check_plan(const Study& study, const IsBad& is_bad, ReadContext& context) {
+  check_of_pair(study, context);
   if (study.has_points()) check_points(study, context);
   if (std::string why = why_no_state(study.initial_state, study.stage); !why.empty() && !is_bad("/study/initial_state"))
     context.add(Finding::Kind::rule, "/study/initial_state", std::move(why));

@@ -55,7 +55,7 @@ bool judge_stage(const Study& study, const std::string& root, F not_computed, Re
       unread.push_back(finding.pointer.substr(root.size()));
   }
   const bool sound = unread.empty();
-  if (study.stage.planet_count < gear::planets_min || study.stage.planet_count > gear::planets_max) return sound;
+  if (study.stage.planet_count < 1 || study.stage.planet_count > gear::planets_max) return sound;
   auto rules = gear::problems_for_modes(study.stage);
   if (study.has_dynamics()) {
     const auto more = gear::problems_for_dynamics(study.stage);

@@ -69,6 +69,13 @@ auto chain(F outer, G inner) {
   return [ outer, inner ](auto& t) -> auto& { return std::invoke(inner, std::invoke(outer, t)); };
 }
 
+/// A member that a stage has and a pair of gears has not.
+template <class V>
+table_detail::Access<Stage, V> of_stage_only(V Stage::*member) {
+  return {[=](Stage& s) -> V& { return s.*member; },
+          [=](const Stage& s) -> const V* { return s.is_pair() ? nullptr : &(s.*member); }};
+}
+
 /// The two forms of the damping of a member's supports.
 template <class T, class F>
 void add_damping(Table<T>& table, F damping) {
@@ -120,7 +127,9 @@ void add_central(Table<T>& table, F member, const std::string& radius) {
       .number_or_rigid("support_N_per_m",
                        chain(
                            member, [](auto& m) -> auto& { return m.support_N_per_m; }),
-                       support, "Stiffness of the support in x and in y [N/m], or \"rigid\" (modes only).")
+                       support,
+                       "Stiffness of the support in x and in y [N/m], or \"rigid\" (modes, and pairs whose gears only "
+                       "rotate).")
       .required();
   table.number_or_rigid("torsional_support_N_per_m",
                         chain(
@@ -190,8 +199,11 @@ const Table<Planet>& planet_table() {
     add_body(t, itself, "base radius");
     add_gear(t, itself);
     t.number_or_rigid("bearing_N_per_m", &Planet::bearing_N_per_m, support,
-                      "Stiffness of the planet bearing, the same in all directions [N/m], or \"rigid\" (modes only).")
+                      "Stiffness of the planet bearing, the same in all directions [N/m], or \"rigid\" (modes, and "
+                      "pairs whose gears only rotate).")
         .required();
+    t.number("torsional_support_N_per_m", &Planet::torsional_support_N_per_m, support,
+             "Of gear 2 of a pair: stiffness of the torsional support, referred to the base radius [N/m].");
     t.number_or_numbers("pin_error_tangential_um", &Planet::pin_error_tangential_um, signed_error, gear::planets_max,
                         "Position error of the pin in the carrier towards rising planet angles [um]: one number, or "
                         "one per planet.");
@@ -355,12 +367,13 @@ const Table<Stage>& lumped_table() {
   static const auto table = [] {
     Table<Stage> t("lumped", "The stage as lumped values.");
     t.object("sun", itself, sun_table()).required();
-    t.object("ring", &Stage::ring, ring_table()).required();
-    t.object("carrier", &Stage::carrier, carrier_table()).required();
+    const auto pair = [](const void* stage) { return static_cast<const Stage*>(stage)->is_pair(); };
+    t.object("ring", of_stage_only(&Stage::ring), ring_table()).required_unless(pair);
+    t.object("carrier", of_stage_only(&Stage::carrier), carrier_table()).required_unless(pair);
     t.object("planet", &Stage::planet, planet_table()).required();
     t.object("sun_planet_mesh", &Stage::sun_planet_mesh, mesh_table()).required();
-    t.object("ring_planet_mesh", &Stage::ring_planet_mesh, mesh_table()).required();
-    t.number("ring_mesh_lead_1", &Stage::ring_mesh_lead_1, between(-1, 1),
+    t.object("ring_planet_mesh", of_stage_only(&Stage::ring_planet_mesh), mesh_table()).required_unless(pair);
+    t.number("ring_mesh_lead_1", of_stage_only(&Stage::ring_mesh_lead_1), between(-1, 1),
              "Share of a mesh period by which the ring-planet mesh leads the sun-planet mesh [-].");
     return t;
   }();
@@ -370,10 +383,11 @@ const Table<Stage>& lumped_table() {
 const Table<Stage>& planets_table() {
   static const auto table = [] {
     Table<Stage> t("planets", "How many planets there are, and where.");
-    t.integer("count", &Stage::planet_count, between(gear::planets_min, gear::planets_max), "Number of planets [-].")
+    t.integer("count", &Stage::planet_count, between(1, gear::planets_max),
+              "Number of planets [-], 2 to 6; 1 of a pair.")
         .required();
-    t.numbers("angles_deg", &Stage::angles_deg, between(-largest_angle_deg, largest_angle_deg), gear::planets_min,
-              gear::planets_max, "Angle of each planet [deg]; equally spaced from 0 if not given.");
+    t.numbers("angles_deg", &Stage::angles_deg, between(-largest_angle_deg, largest_angle_deg), 1, gear::planets_max,
+              "Angle of each planet [deg]; equally spaced from 0 if not given.");
     t.number("centre_distance_mm", &Stage::centre_distance_mm, length,
              "Distance between the axes of sun and planet [mm]; needed for time integration.");
     return t;
@@ -388,6 +402,19 @@ const Table<gear::Load>& load_table() {
              "Power [kW]: the torque is power over the sun's speed, and falls with it.");
     t.number("torque_Nm", &gear::Load::torque_Nm, between(-1e9, 1e9),
              "Torque on the sun [N m], at every speed. A negative one loads the other flanks: the stage is mirrored.");
+    const auto harmonics = [&](const char* key, std::optional<std::vector<double>> gear::Load::*member,
+                               const char* words) {
+      t.numbers(key, member, between(-1000, 1000), 0, gear::harmonics_max,
+                std::string("Of a pair: ") + words + " [-].");
+    };
+    harmonics("input_torque_cos", &gear::Load::input_cos,
+              "cosine coefficients of the harmonics 1, 2, ... of the mesh frequency in the torque on gear 1, over its "
+              "mean");
+    harmonics("input_torque_sin", &gear::Load::input_sin, "sine coefficients of the same");
+    harmonics("output_torque_cos", &gear::Load::output_cos,
+              "cosine coefficients of the harmonics 1, 2, ... of the mesh frequency in the torque on gear 2, over its "
+              "mean");
+    harmonics("output_torque_sin", &gear::Load::output_sin, "sine coefficients of the same");
     t.rule(KeyRule::Kind::exactly_one, {"power_kW", "torque_Nm"});
     return t;
   }();
@@ -534,9 +561,10 @@ const Table<Stage>& stage_table() {
     t.choice("boundary", &Stage::boundary,
              std::vector<std::pair<std::string, gear::Boundary>>{{"as_printed", gear::Boundary::as_printed},
                                                                  {"fixed_ring", gear::Boundary::fixed_ring},
-                                                                 {"star", gear::Boundary::star}},
+                                                                 {"star", gear::Boundary::star},
+                                                                 {"pair", gear::Boundary::pair}},
              "Member that is held: the ring, the carrier (star), or neither, as in the printed equations of Tang et "
-             "al. (`as_printed`).");
+             "al. (`as_printed`). `pair` is a lone pair: `sun` is gear 1, which drives, `planet` is gear 2.");
     t.choice("driver", &Stage::driver,
              std::vector<std::pair<std::string, gear::Driver>>{
                  {"sun", gear::Driver::sun}, {"carrier", gear::Driver::carrier}, {"ring", gear::Driver::ring}},
@@ -628,6 +656,9 @@ std::string schema_text() {
 
   ordered_json stage = stage_table().schema();
   ordered_json catalogue_stage = catalogue_stage_schema(stage);
+  // The keys of lumped_table() that are not required of a pair.
+  stage["if"] = {{"properties", {{"boundary", {{"const", "pair"}}}}}, {"required", {"boundary"}}};
+  stage["else"] = {{"properties", {{"lumped", {{"required", {"ring", "carrier", "ring_planet_mesh"}}}}}}};
   for (ordered_json* file : {&study, &stage, &catalogue_stage})
     (*file)["properties"][schema_key] = {
         {"type", "string"}, {"description", "Of a file: where the schema is, for editors. Nothing depends on it."}};

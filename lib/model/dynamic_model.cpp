@@ -25,7 +25,8 @@ std::vector<ContactSurface> contact_surfaces(const DynamicModel& model) {
     all.push_back({part, mesh, false});
   };
   for (int i = 1; i <= model.planets; ++i)
-    for (const char* kind : {"sp_", "rp_"}) both(kind + std::to_string(i), true);
+    for (const char* kind : {"sp_", "rp_"})
+      if (kind[0] == 's' || model.has_ring()) both(kind + std::to_string(i), true);
   if (all.size() + 1 == model.surfaces.count) {
     all.push_back({"sun_bearing", false, true});
   } else {
@@ -106,9 +107,14 @@ void deflections_at(Layout layout, const Parameters<double, N>& p, double s, con
     row.assign(values.begin(), values.end());
   };
   set(out.sun_planet, now.sun_planet.delta(all, d.sun_planet));
-  set(out.ring_planet, now.ring_planet.delta(all, d.ring_planet));
   set(out.sun_planet_rate, now.sun_planet.rate(all, d_rate.sun_planet));
-  set(out.ring_planet_rate, now.ring_planet.rate(all, d_rate.ring_planet));
+  if constexpr (N == 1) {
+    out.ring_planet.assign(1, 0.0);
+    out.ring_planet_rate.assign(1, 0.0);
+  } else {
+    set(out.ring_planet, now.ring_planet.delta(all, d.ring_planet));
+    set(out.ring_planet_rate, now.ring_planet.rate(all, d_rate.ring_planet));
+  }
 }
 
 template <std::size_t N>
@@ -228,7 +234,7 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
   m.static_mesh_force = p->drive / static_cast<double>(N);
   for (std::size_t i = 0; i < N; ++i)
     m.planet_phases.push_back(p->sun_planet.phase_cycles[i] - p->sun_planet.phase_cycles[0]);
-  if (planets_alike(*p)) {
+  if (N > 1 && planets_alike(*p)) {
     m.remove_synchronous = [layout, p](std::span<double> deviation) { remove_synchronous(layout, *p, deviation); };
   }
   m.default_start = linear_equilibrium(layout, *p);
@@ -241,6 +247,13 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
 }  // namespace
 
 Layout layout_of(const gear::Stage& stage, CoordinateChoice choice) {
+  if (stage.is_pair()) {
+    const bool moves = std::isfinite(stage.sun.support_N_per_m);
+    const bool both = choice == CoordinateChoice::full || stage.sun.torsional_support_N_per_m > 0.0 ||
+                      stage.planet.torsional_support_N_per_m.value_or(0.0) > 0.0;
+    if (moves) return both ? Layout::pair_supported : Layout::pair;
+    return both ? Layout::pair_torsional_supported : Layout::pair_torsional;
+  }
   if (choice == CoordinateChoice::full) return Layout::full;
   if (stage.boundary != gear::Boundary::fixed_ring) return Layout::relative_to_ring;
   return std::isfinite(stage.ring.torsional_support_N_per_m) ? Layout::relative_to_carrier

@@ -25,13 +25,15 @@ namespace epicyclic::model {
 /// Which side of its teeth a mesh is on.
 enum class Contact { drive, loss, back };
 
-/// Deflections of all meshes at one instant [b_c] and their rates [b_c per tau], with the errors; N entries each.
+/// Deflections of all meshes at one instant [b_c] and their rates [b_c per tau], with the errors; N entries each, of
+/// the ring's mesh 0 in a pair.
 struct MeshDeflections {
   std::vector<double> sun_planet, ring_planet;
   std::vector<double> sun_planet_rate, ring_planet_rate;
 };
 
-/// Forces in all meshes and bearings at one instant [m_0 omega_sn^2 b_c]; N entries each.
+/// Forces in all meshes and bearings at one instant [m_0 omega_sn^2 b_c]; N entries each, of the ring's mesh 0 in a
+/// pair.
 struct StageForces {
   std::vector<double> sun_planet, ring_planet;                  ///< F of [M-27], damping included
   std::vector<double> sun_planet_elastic, ring_planet_elastic;  ///< k f(delta), the part of it that is no damping
@@ -41,12 +43,12 @@ struct StageForces {
 
 /// The equations of motion, s the mesh phase, and what else can be said of a state. Switching surfaces are the
 /// contacts, how far each is from being made or lost: contact_distances() of model/right_hand_side.hpp, 4 N + 4 of
-/// them, or 4 N + 1 with a radial bearing law. The field jumps there with damping that ends where contact does. A field
-/// is made of its folded constants (model/folded_constants.hpp).
+/// them, or 4 N + 1 with a radial bearing law; of a pair 6 or 3. The field jumps there with damping that ends where
+/// contact does. A field is made of its folded constants (model/folded_constants.hpp).
 struct DynamicModel : VectorField {
   DynamicModel() { period = 2.0 * std::numbers::pi; }
 
-  int planets = 0;
+  int planets = 0;  ///< 1: a pair of gears
   Layout layout = Layout::relative_to_ring;
   std::vector<std::string> state_names;  ///< x_s, ..., then x_s_rate, ...
   double sun_planet_half_gap = 0;        ///< b_sp [b_c]
@@ -88,6 +90,8 @@ struct DynamicModel : VectorField {
   /// Equilibria at mesh phases in [0, 2 pi], a state for each [model/static_equilibrium.hpp]; none where one was not
   /// found. Their elastic forces are the quasi-static ones. Empty in a model of one's own.
   std::function<std::vector<std::vector<double>>(std::span<const double> phases)> quasi_static_states;
+
+  [[nodiscard]] bool has_ring() const { return !is_pair(layout); }
 
   /// Side of the teeth that a deflection is on.
   [[nodiscard]] static Contact contact(double delta, double half_gap) {

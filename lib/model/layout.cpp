@@ -3,6 +3,15 @@
 namespace epicyclic::model {
 
 std::vector<std::string> coordinate_names(Layout layout, int planets) {
+  if (planets == 1 && layout != Layout::full) {
+    std::vector<std::string> names;
+    const bool moves = has_translations(layout);
+    if (moves) names.insert(names.end(), {"x_1", "y_1"});
+    names.emplace_back(has_both_rotations(layout) ? "u_1" : "w");
+    if (moves) names.insert(names.end(), {"x_2", "y_2"});
+    if (has_both_rotations(layout)) names.emplace_back("u_2");
+    return names;
+  }
   const std::string rotation = layout == Layout::full ? "u_" : "w_";
   std::vector<std::string> names = {"x_s", "y_s", rotation + "s"};
   for (int i = 1; i <= planets; ++i) {

@@ -8,6 +8,12 @@
 //             X_i = x_pi + u_c sin phi_i ,  Y_i = y_pi - u_c cos phi_i               `fixed_ring`: 3N + 8
 //   carrier, ring rigid in rotation (u_r = 0)                                        `fixed_ring`: 3N + 7
 //
+// A lone pair of gears has gear 1 in the place of the sun and gear 2 in that of its only planet [M-pair]. If both gears
+// rotate freely, one rotation is left, w = u_1 + u_2. Translations are left out if the bearings are rigid.
+//
+//   pair              x_1, y_1, w, x_2, y_2             5     pair_supported            x_1, y_1, u_1, x_2, y_2, u_2 6
+//   pair_torsional    w                                 1     pair_torsional_supported  u_1, u_2 2
+//
 // Source: docs/theory/model.md, section 4; Eqs. (21)-(22) eliminate the same rotation by differentiating e twice, which
 // this avoids. Written once: every layout is read into the same Coordinates, in which the rotation of the reference
 // member is 0, so that deflections have one formula. Linear maps: smooth everywhere. The layout is a value: it decides
@@ -27,7 +33,23 @@ enum class Layout {
   relative_to_carrier,
   relative_to_carrier_rigid_ring,
   full,
+  pair,
+  pair_supported,
+  pair_torsional,
+  pair_torsional_supported,
 };
+
+/// Of a lone pair of gears?
+[[nodiscard]] constexpr bool is_pair(Layout l) {
+  return l == Layout::pair || l == Layout::pair_supported || l == Layout::pair_torsional ||
+         l == Layout::pair_torsional_supported;
+}
+
+/// Of a lone pair of gears: do its gears move sideways, and has each a rotation of its own?
+[[nodiscard]] constexpr bool has_translations(Layout l) { return l == Layout::pair || l == Layout::pair_supported; }
+[[nodiscard]] constexpr bool has_both_rotations(Layout l) {
+  return l == Layout::pair_supported || l == Layout::pair_torsional_supported;
+}
 
 [[nodiscard]] constexpr bool has_ring_rotation(Layout l) {
   return l == Layout::relative_to_carrier || l == Layout::full;
@@ -36,8 +58,9 @@ enum class Layout {
   return l == Layout::relative_to_ring || l == Layout::full;
 }
 
-/// Degrees of freedom of N planets.
+/// Degrees of freedom of N planets; one planet is gear 2 of a pair.
 [[nodiscard]] constexpr std::size_t degrees_of_freedom(Layout l, std::size_t planets) {
+  if (planets == 1 && l != Layout::full) return (has_translations(l) ? 4U : 0U) + (has_both_rotations(l) ? 2U : 1U);
   return 3 * planets + 7 + (has_ring_rotation(l) ? 1U : 0U) + (has_carrier_rotation(l) ? 1U : 0U);
 }
 
@@ -82,9 +105,45 @@ struct Planets {
   }
 };
 
+/// Both gears of a pair; what is not in the state is 0.
+template <class T>
+[[nodiscard]] Coordinates<T, 1> unpack_pair(Layout layout, const T* q) {
+  const T nothing(0.0);
+  Coordinates<T, 1> c;
+  c.x_s = c.y_s = c.x_r = c.y_r = c.u_r = c.x_c = c.y_c = c.u_c = nothing;
+  c.x_p = c.y_p = c.w_p = nothing;
+  if (has_translations(layout)) {
+    c.x_s = *q++;
+    c.y_s = *q++;
+  }
+  c.w_s = *q++;
+  if (has_translations(layout)) {
+    c.x_p.set(0, *q++);
+    c.y_p.set(0, *q++);
+  }
+  if (has_both_rotations(layout)) c.w_p.set(0, *q);
+  return c;
+}
+
+template <class T>
+void pack_pair(Layout layout, const Coordinates<T, 1>& c, T* q) {
+  if (has_translations(layout)) {
+    *q++ = c.x_s;
+    *q++ = c.y_s;
+  }
+  *q++ = c.w_s;
+  if (has_translations(layout)) {
+    *q++ = c.x_p[0];
+    *q++ = c.y_p[0];
+  }
+  if (has_both_rotations(layout)) *q = c.w_p[0];
+}
+
 /// All members with some of the planets.
 template <class T, std::size_t N, std::size_t G>
 [[nodiscard]] Coordinates<T, G> unpack(Layout layout, Planets<N, G> planets, const T* q) {
+  if constexpr (N == 1)
+    if (layout != Layout::full) return unpack_pair(layout, q);
   const std::size_t first = planets.first;
   Coordinates<T, G> c;
   c.x_s = q[Slots::x_s];
@@ -110,6 +169,8 @@ template <std::size_t N, class T>
 
 template <std::size_t N, class T>
 void pack(Layout layout, const Coordinates<T, N>& c, T* q) {
+  if constexpr (N == 1)
+    if (layout != Layout::full) return pack_pair(layout, c, q);
   q[Slots::x_s] = c.x_s;
   q[Slots::y_s] = c.y_s;
   q[Slots::w_s] = c.w_s;
@@ -130,15 +191,19 @@ void pack(Layout layout, const Coordinates<T, N>& c, T* q) {
 }  // namespace epicyclic::model
 
 /// EPICYCLIC_FOR_PLANETS(X) for each number of planets: X(planets).
-#define EPICYCLIC_FOR_PLANETS(X) X(2) X(3) X(4) X(5) X(6)
+#define EPICYCLIC_FOR_PLANETS(X) X(1) X(2) X(3) X(4) X(5) X(6)
 /// EPICYCLIC_FOR_LAYOUTS(X): X(layout, planets) for each that is integrated.
 #define EPICYCLIC_FOR_LAYOUTS_OF(X, N) \
   X(Layout::relative_to_ring, N)       \
   X(Layout::relative_to_carrier, N)    \
   X(Layout::relative_to_carrier_rigid_ring, N)
-#define EPICYCLIC_FOR_LAYOUTS(X) \
-  EPICYCLIC_FOR_LAYOUTS_OF(X, 2) \
-  EPICYCLIC_FOR_LAYOUTS_OF(X, 3) \
-  EPICYCLIC_FOR_LAYOUTS_OF(X, 4) \
-  EPICYCLIC_FOR_LAYOUTS_OF(X, 5) \
+#define EPICYCLIC_FOR_LAYOUTS(X)         \
+  X(Layout::pair, 1)                     \
+  X(Layout::pair_supported, 1)           \
+  X(Layout::pair_torsional, 1)           \
+  X(Layout::pair_torsional_supported, 1) \
+  EPICYCLIC_FOR_LAYOUTS_OF(X, 2)         \
+  EPICYCLIC_FOR_LAYOUTS_OF(X, 3)         \
+  EPICYCLIC_FOR_LAYOUTS_OF(X, 4)         \
+  EPICYCLIC_FOR_LAYOUTS_OF(X, 5)         \
   EPICYCLIC_FOR_LAYOUTS_OF(X, 6)

@@ -46,8 +46,9 @@ class Assembly {
     for (std::size_t i = 0; i < N; ++i) {
       spring(Element::sun_planet_mesh, stage_.sun_planet_mesh.stiffness_N_per_m,
              row([i](const D& d) { return d.sun_planet[i]; }));
-      spring(Element::ring_planet_mesh, stage_.ring_planet_mesh.stiffness_N_per_m,
-             row([i](const D& d) { return d.ring_planet[i]; }));
+      if constexpr (N > 1)
+        spring(Element::ring_planet_mesh, stage_.ring_planet_mesh.stiffness_N_per_m,
+               row([i](const D& d) { return d.ring_planet[i]; }));
       spring(Element::planet_bearing, stage_.planet.bearing_N_per_m, row([i](const D& d) { return d.carrier_x[i]; }));
       spring(Element::planet_bearing, stage_.planet.bearing_N_per_m, row([i](const D& d) { return d.carrier_y[i]; }));
       mass(Slots::x_p(i), stage_.planet.mass_kg);
@@ -55,6 +56,18 @@ class Assembly {
       mass(Slots::w_p(i), stage_.planet.inertia_over_r2_kg);
     }
     member(stage_.sun, Slots::x_s, Slots::y_s, Slots::w_s, Element::sun_support, Element::sun_torsion);
+    if constexpr (N == 1) {
+      spring(Element::planet_bearing, stage_.planet.torsional_support_N_per_m.value_or(0.0),
+             Eigen::VectorXd::Unit(n, static_cast<Eigen::Index>(Slots::w_p(0))));
+      // A pair has no ring and no carrier: they stand still.
+      gear::CentralMember none;
+      none.mass_kg = none.inertia_over_r2_kg = scales_.mass;
+      none.support_N_per_m = none.torsional_support_N_per_m = gear::rigid;
+      member(none, Slots::x_r(N), Slots::y_r(N), Slots::u_r(N), Element::ring_support, Element::ring_torsion);
+      member(none, Slots::x_c(N), Slots::y_c(N), Slots::u_c(Layout::full, N), Element::carrier_support,
+             Element::carrier_torsion);
+      return std::move(linear_);
+    }
     member(stage_.ring, Slots::x_r(N), Slots::y_r(N), Slots::u_r(N), Element::ring_support, Element::ring_torsion);
     member(stage_.carrier, Slots::x_c(N), Slots::y_c(N), Slots::u_c(Layout::full, N), Element::carrier_support,
            Element::carrier_torsion);

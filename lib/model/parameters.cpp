@@ -12,6 +12,7 @@
 #include "gear/friction_path.hpp"
 #include "gear/kinematics.hpp"
 #include "gear/reversal.hpp"
+#include "model/layout.hpp"
 
 namespace epicyclic::model {
 
@@ -250,18 +251,19 @@ void fill_bodies(Parameters<double, N>& p, const gear::Stage& stage, const Scale
 /// Stiffness and damping of what holds the members, and the law of the sun's bearing.
 template <std::size_t N>
 void fill_supports(Parameters<double, N>& p, const gear::Stage& stage, const Scales& scales) {
-  const auto support = [&](const gear::CentralMember& m) { return scales.stiffness(m.support_N_per_m); };
+  // Nothing moves against a rigid one.
+  const auto stiffness = [&](double value) { return std::isfinite(value) ? scales.stiffness(value) : 0.0; };
+  const auto support = [&](const gear::CentralMember& m) { return stiffness(m.support_N_per_m); };
   const auto support_damping = [&](const gear::CentralMember& m) {
     return scales.damping(m.damping.of(m.support_N_per_m, m.mass_kg));
   };
-  const auto torsion = [&](const gear::CentralMember& m) {
-    return std::isfinite(m.torsional_support_N_per_m) ? scales.stiffness(m.torsional_support_N_per_m) : 0.0;
-  };
   // No support, no dashpot: a member that is free in rotation has nothing to be damped against.
-  const auto torsion_damping = [&](const gear::CentralMember& m) {
-    if (m.torsional_support_N_per_m == 0.0) return 0.0;
-    return scales.damping(m.damping.of(m.torsional_support_N_per_m, m.inertia_over_r2_kg));
+  const auto torsion = [&](const gear::CentralMember& m) { return stiffness(m.torsional_support_N_per_m); };
+  const auto dashpot = [&](double torsion_N_per_m, const auto& m) {
+    return torsion_N_per_m == 0.0 ? 0.0 : scales.damping(m.damping.of(torsion_N_per_m, m.inertia_over_r2_kg));
   };
+  const auto torsion_damping = [&](const gear::CentralMember& m) { return dashpot(m.torsional_support_N_per_m, m); };
+  const double planet_torsion = stage.planet.torsional_support_N_per_m.value_or(0.0);
   p.support_s = support(stage.sun);
   p.support_r = support(stage.ring);
   p.support_c = support(stage.carrier);
@@ -272,7 +274,11 @@ void fill_supports(Parameters<double, N>& p, const gear::Stage& stage, const Sca
   p.torsion_c = torsion(stage.carrier);
   p.torsion_damping_r = torsion_damping(stage.ring);
   p.torsion_damping_c = torsion_damping(stage.carrier);
-  p.bearing_p = scales.stiffness(stage.planet.bearing_N_per_m);
+  p.torsion_s = torsion(stage.sun);
+  p.torsion_p = stiffness(planet_torsion);
+  p.torsion_damping_s = torsion_damping(stage.sun);
+  p.torsion_damping_p = dashpot(planet_torsion, stage.planet);
+  p.bearing_p = stiffness(stage.planet.bearing_N_per_m);
   p.bearing_damping_p = scales.damping(stage.planet.damping.of(stage.planet.bearing_N_per_m, stage.planet.mass_kg));
   p.sun_half_gap = scales.displacement(stage.sun_bearing.clearance_half_um * 1e-6);
   p.sun_law = stage.sun_bearing.law;
@@ -286,6 +292,20 @@ void fill_loads(Parameters<double, N>& p, const gear::Stage& stage, const Scales
   const gear::Torques torque = gear::torques(stage, mesh_frequency);
   constexpr double m_per_mm = 1e-3;
   p.drive = scales.force(torque.sun / (*stage.sun.base_radius_mm * m_per_mm));
+  if (stage.is_pair()) {
+    // The torque on gear 2 is the static force on its base circle, whatever the digits of the radii.
+    p.output_load = p.drive;
+    p.ring_drive = p.carrier_load = 0.0;
+    const gear::Load& load = stage.load;
+    p.input_cos = load.input_cos.value_or(std::vector<double>{});
+    p.input_sin = load.input_sin.value_or(std::vector<double>{});
+    p.output_cos = load.output_cos.value_or(std::vector<double>{});
+    p.output_sin = load.output_sin.value_or(std::vector<double>{});
+    p.torque_harmonics = std::max({p.input_cos.size(), p.input_sin.size(), p.output_cos.size(), p.output_sin.size()});
+    for (auto* list : {&p.input_cos, &p.input_sin, &p.output_cos, &p.output_sin}) list->resize(p.torque_harmonics);
+    return;
+  }
+  p.output_load = 0.0;
   p.ring_drive = scales.force(torque.ring / (*stage.ring.base_radius_mm * m_per_mm));
   p.carrier_load = scales.force(torque.carrier / (*stage.centre_distance_mm * m_per_mm));
 }
@@ -300,18 +320,19 @@ void fill_meshes(Parameters<double, N>& p, const gear::Stage& stage, const Scale
   const auto reduced = [](double a, double b) { return 1.0 / (1.0 / a + 1.0 / b); };
   const double m_s = stage.sun.inertia_over_r2_kg;
   const double m_p = stage.planet.inertia_over_r2_kg;
-  const double m_r = stage.ring.inertia_over_r2_kg;
   fill_mesh(p.sun_planet, stage.sun_planet_mesh, angles, -*stage.sun.teeth, 0.0, reduced(m_s, m_p), scales,
             halved_tables, backward);
-  fill_mesh(p.ring_planet, stage.ring_planet_mesh, angles, *stage.ring.teeth, stage.ring_mesh_lead_1, reduced(m_p, m_r),
-            scales, halved_tables, backward);
-  const gear::MeshLoad load = gear::mean_mesh_load(stage, mesh_frequency);
-  const auto friction = [&](const gear::Friction& f, auto line_of, double lead,
+  const auto friction = [&, load = gear::mean_mesh_load(stage, mesh_frequency)](
+                            const gear::Friction& f, auto line_of, double lead,
                             MeshParameters<double, N> Parameters<double, N>::*mesh) {
     const FrictionTrack* other = like != nullptr ? (like->*mesh).friction.get() : nullptr;
     (p.*mesh).friction = make_track(f, stage, line_of, lead, load, other, halved_tables);
   };
   friction(stage.sun_planet_mesh.friction, gear::sun_planet_line, 0.0, &Parameters<double, N>::sun_planet);
+  if (stage.is_pair()) return;
+  const double m_r = stage.ring.inertia_over_r2_kg;
+  fill_mesh(p.ring_planet, stage.ring_planet_mesh, angles, *stage.ring.teeth, stage.ring_mesh_lead_1, reduced(m_p, m_r),
+            scales, halved_tables, backward);
   friction(stage.ring_planet_mesh.friction, gear::ring_planet_line, stage.ring_mesh_lead_1,
            &Parameters<double, N>::ring_planet);
 }
@@ -350,6 +371,9 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
   fill_meshes(p, stage, scales, mesh_frequency, options.halved_tables, like);
   add_pin_errors(p, stage, scales);
   make_segments(p);
+  if (p.torque_harmonics > 0)
+    for (double& interval : p.sampling_interval)
+      interval = std::min(interval, two_pi * 0.5 / static_cast<double>(p.torque_harmonics));
 
   const GyroscopicForm form = gyroscopic_form(stage.boundary, options.gyroscopic);
   const double direction = stage.runs_backward() ? -1.0 : 1.0;
@@ -377,11 +401,7 @@ std::vector<double> constant_values(const Parameters<double, N>& p) {
   template Parameters<double, N> make_geometry<N>(const gear::Stage&);                                              \
   template Parameters<double, N> make_parameters<N>(const gear::Stage&, const Scales&, double, const ModelOptions&, \
                                                     const Parameters<double, N>*);
-EPICYCLIC_INSTANTIATE(2)
-EPICYCLIC_INSTANTIATE(3)
-EPICYCLIC_INSTANTIATE(4)
-EPICYCLIC_INSTANTIATE(5)
-EPICYCLIC_INSTANTIATE(6)
+EPICYCLIC_FOR_PLANETS(EPICYCLIC_INSTANTIATE)
 #undef EPICYCLIC_INSTANTIATE
 
 }  // namespace epicyclic::model

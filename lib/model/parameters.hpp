@@ -73,6 +73,10 @@ struct Parameters {
   gear::BearingLaw sun_law = gear::BearingLaw::linear_xy;
   T sun_hertz;                        ///< K of the Palmgren laws, force K d^(3/2)
   T drive, ring_drive, carrier_load;  ///< T_D / r_bs, T_r / r_br, T_c / r_c
+  /// Of a pair [M-pair]: k_u and c_u of gear 1 and gear 2, T_2 / r_b2.
+  T torsion_s, torsion_p, torsion_damping_s, torsion_damping_p, output_load;
+  std::size_t torque_harmonics = 0;
+  std::vector<T> input_cos, input_sin, output_cos, output_sin;  ///< over the mean torques; [torque_harmonics]
   MeshParameters<T, N> sun_planet, ring_planet;
   T carrier_speed;                      ///< omega_c / omega_sn; 0 if the gyroscopic terms are off
   T centrifugal;                        ///< M_p omega_c^2 r_c of each planet [M-cf]; 0 if it is left out
@@ -140,6 +144,9 @@ void for_each_constant(P& p, const F& f) {
   each(p.torsion_r, p.torsion_c, p.torsion_damping_r, p.torsion_damping_c);
   each(p.bearing_p, p.bearing_damping_p, p.sun_half_gap, p.sun_hertz);
   each(p.drive, p.ring_drive, p.carrier_load);
+  each(p.torsion_s, p.torsion_p, p.torsion_damping_s, p.torsion_damping_p, p.output_load);
+  for (auto* list : {&p.input_cos, &p.input_sin, &p.output_cos, &p.output_sin})
+    for (auto& ratio : *list) f(ratio);
   mesh(p.sun_planet);
   mesh(p.ring_planet);
   each(p.carrier_speed, p.centrifugal, p.smoothing);
@@ -164,6 +171,8 @@ template <class T, std::size_t N>
   };
   mesh(p.sun_planet, r.sun_planet);
   mesh(p.ring_planet, r.ring_planet);
+  r.torque_harmonics = p.torque_harmonics;
+  for (auto* list : {&r.input_cos, &r.input_sin, &r.output_cos, &r.output_sin}) list->resize(p.torque_harmonics);
   r.sun_law = p.sun_law;
   r.gyroscopic_relative = p.gyroscopic_relative;
   r.gyroscopic_carrier_row = p.gyroscopic_carrier_row;

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <numbers>
+#include <type_traits>
 
 #include "core/row.hpp"
 #include "core/scalar.hpp"
@@ -102,19 +103,42 @@ struct MeshCoefficients {
 
 template <class P, std::size_t N>
 [[nodiscard]] std::size_t harmonics_of(const Parameters<P, N>& p) {
-  return std::max(p.sun_planet.harmonics, p.ring_planet.harmonics);
+  return std::max({p.sun_planet.harmonics, p.ring_planet.harmonics, p.torque_harmonics});
 }
+
+/// Torques on gear 1 and gear 2 of a pair over their means [M-pair].
+template <class P>
+struct TorqueRatios {
+  P input, output;
+
+  TorqueRatios() = default;
+  template <std::size_t N>
+  TorqueRatios(const Parameters<P, N>& p, const HarmonicBasis<P>& basis) : input(1.0), output(1.0) {
+    for (std::size_t h = 0; h < p.torque_harmonics; ++h) {
+      input += p.input_cos[h] * basis.cosine[h] + p.input_sin[h] * basis.sine[h];
+      output += p.output_cos[h] * basis.cosine[h] + p.output_sin[h] * basis.sine[h];
+    }
+  }
+};
+
+/// A stage has constant torques.
+struct ConstantTorques {
+  ConstantTorques() = default;
+  template <class P, std::size_t N>
+  ConstantTorques(const Parameters<P, N>& /*p*/, const HarmonicBasis<P>& /*basis*/) {}
+};
 
 /// Of the stage.
 template <class P, std::size_t N>
 struct PhaseCoefficients {
   MeshCoefficients<P, N> sun_planet, ring_planet;
+  [[no_unique_address]] std::conditional_t<N == 1, TorqueRatios<P>, ConstantTorques> torques;
 
   PhaseCoefficients() = default;
 
   /// Without the tables.
   PhaseCoefficients(const Parameters<P, N>& p, const HarmonicBasis<P>& basis)
-      : sun_planet(p, p.sun_planet, basis), ring_planet(p, p.ring_planet, basis) {}
+      : sun_planet(p, p.sun_planet, basis), ring_planet(p, p.ring_planet, basis), torques(p, basis) {}
 
   /// @param segment  of p, that of s
   PhaseCoefficients(const Parameters<P, N>& p, std::size_t segment, const P& s)

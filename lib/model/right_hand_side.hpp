@@ -5,6 +5,7 @@
 //   delta_picx = x_pi - x_c + u_c sin phi_i ,  delta_picy = y_pi - y_c - u_c cos phi_i                   [M-15]
 //   F = k(s) f(delta, b) + c delta' ,  F_f = A(s) F ,  moments B(s) F                                    [M-27]
 //   rows of sun, planets, ring, carrier                                                                  [M-17]..[M-20]
+//   a pair: gear 1 as the sun, gear 2 as a planet on a bearing of its own, torque T_2 on it              [M-pair]
 //   planets' rotating-frame terms: printed, or invariant in X_i = x_pi + u_c sin phi_i, Y_i = ...        [M-inv]
 //
 // all dimensionless (model/scales.hpp), the prime d/d tau; the state is advanced in the mesh phase s = Omega tau, so
@@ -150,7 +151,22 @@ struct StageState {
         d(deflections(p, planets, q)),
         d_rate(deflections(p, planets, v)),
         sun_planet(mesh_state(p, planets, p.sun_planet, now.sun_planet, d.sun_planet, d_rate.sun_planet)),
-        ring_planet(mesh_state(p, planets, p.ring_planet, now.ring_planet, d.ring_planet, d_rate.ring_planet)) {}
+        ring_planet(ring_state(p, planets, now)) {}
+
+ private:
+  template <std::size_t N>
+  MeshState<T, G, P> ring_state(const Parameters<P, N>& p, const Planets<N, G>& planets,
+                                const PhaseCoefficients<P, N>& now) const {
+    if constexpr (N == 1) {
+      MeshState<T, G, P> none;  // a pair has no ring
+      none.stiffness = P(0.0);
+      none.delta = none.rate = none.elastic = none.force = T(0.0);
+      none.friction = none.moment_driving = none.moment_driven = T(0.0);
+      return none;
+    } else {
+      return mesh_state(p, planets, p.ring_planet, now.ring_planet, d.ring_planet, d_rate.ring_planet);
+    }
+  }
 };
 
 /// With all planets.
@@ -213,6 +229,14 @@ template <class T, class P, std::size_t N, std::size_t G>
   r.carrier_y = sum(spring_y);
   r.carrier_u = sum(p.bearing_p * g.d.carrier_u + p.bearing_damping_p * g.d_rate.carrier_u);
 
+  if constexpr (N == 1) {
+    a.x_p = (sp.force * sin_sp + sp.friction * cos_sp - spring_x) * p.inverse_mass_p;
+    a.y_p = (sp.force * cos_sp - sp.friction * sin_sp - spring_y) * p.inverse_mass_p;
+    a.w_p = (sp.moment_driven - sp.force) * p.inverse_inertia_p;
+    r.ring_x = r.ring_y = r.ring_u = r.frame_u = T(0.0);
+    return r;
+  }
+
   R x = q.x_p;
   R y = q.y_p;
   R x_rate = v.x_p;
@@ -245,10 +269,23 @@ template <class T, class P, std::size_t N, std::size_t G>
   return r;
 }
 
+/// Gear 1 of a pair, and the torque and torsional support of gear 2 [M-pair].
+template <class T, class P>
+void accelerate_pair(const Parameters<P, 1>& p, const TorqueRatios<P>& torques, const Coordinates<T, 1>& q,
+                     const Coordinates<T, 1>& v, const Reactions<T>& r, Coordinates<T, 1>& a) {
+  const BearingForce<T> bearing = sun_bearing_force(p, q.x_s, q.y_s);
+  a.x_s = (-bearing.x - p.damping_s * v.x_s - r.sun_x) * p.inverse_mass_s;
+  a.y_s = (-bearing.y - p.damping_s * v.y_s - r.sun_y) * p.inverse_mass_s;
+  a.w_s = (p.drive * torques.input - p.torsion_s * q.w_s - p.torsion_damping_s * v.w_s - r.sun_u) * p.inverse_inertia_s;
+  a.w_p += (p.output_load * torques.output - p.torsion_p * q.w_p - p.torsion_damping_p * v.w_p) * p.inverse_inertia_p;
+  a.x_r = a.y_r = a.u_r = a.x_c = a.y_c = a.u_c = T(0.0);
+}
+
 /// Sun [M-17], ring [M-19] and carrier [M-20], full accelerations.
-template <class T, class P, std::size_t N, std::size_t G>
-void accelerate_members(const Parameters<P, N>& p, const Coordinates<T, G>& q, const Coordinates<T, G>& v,
-                        const Reactions<T>& r, Coordinates<T, N>& a) {
+template <class T, class P, std::size_t N, std::size_t G, class Torques>
+void accelerate_members(const Parameters<P, N>& p, const Torques& torques, const Coordinates<T, G>& q,
+                        const Coordinates<T, G>& v, const Reactions<T>& r, Coordinates<T, N>& a) {
+  if constexpr (N == 1) return accelerate_pair(p, torques, q, v, r, a);
   const P& wc = p.carrier_speed;
   const P wc2 = wc * wc;
 
@@ -278,11 +315,12 @@ void accelerate_members(const Parameters<P, N>& p, const Coordinates<T, G>& q, c
 }
 
 /// Accelerations d^2/d tau^2 of the full coordinates from [M-17]..[M-20].
-template <class T, class P, std::size_t N>
-[[nodiscard]] Coordinates<T, N> accelerations(const Parameters<P, N>& p, const StageState<T, N, P>& g) {
+template <class T, class P, std::size_t N, class Torques = ConstantTorques>
+[[nodiscard]] Coordinates<T, N> accelerations(const Parameters<P, N>& p, const StageState<T, N, P>& g,
+                                              const Torques& torques = {}) {
   Coordinates<T, N> a;
   const Reactions<T> r = accelerate_planets(p, Planets<N>{}, g, a);
-  accelerate_members(p, g.q, g.v, r, a);
+  accelerate_members(p, torques, g.q, g.v, r, a);
   return a;
 }
 
@@ -307,8 +345,8 @@ template <class T, class P, std::size_t N>
       total += r;
     }
   }
-  accelerate_members(p, unpack(layout, Group{0}, y), unpack(layout, Group{0}, y + degrees_of_freedom(layout, N)), total,
-                     a);
+  accelerate_members(p, now.torques, unpack(layout, Group{0}, y),
+                     unpack(layout, Group{0}, y + degrees_of_freedom(layout, N)), total, a);
   return a;
 }
 
@@ -327,7 +365,13 @@ void make_relative(Layout layout, const Parameters<P, N>& p, Coordinates<T, N>& 
       a.x_p += a.u_c * p.sin_phi;
       a.y_p -= a.u_c * p.cos_phi;
       return;
+    case Layout::pair:
+    case Layout::pair_torsional:
+      a.w_s += a.w_p[0];
+      return;
     case Layout::full:
+    case Layout::pair_supported:
+    case Layout::pair_torsional_supported:
       return;
   }
 }
@@ -345,7 +389,7 @@ void right_hand_side(Layout layout, const Parameters<P, N>& p, const PhaseCoeffi
     a = accelerations_by_planet(layout, p, now, y);
   } else {
     const StageState<T, N, P> g(layout, p, Planets<N>{}, now, y);
-    a = accelerations(p, g);
+    a = accelerations(p, g, now.torques);
   }
   make_relative(layout, p, a);
   const P per_phase = 1.0 / p.omega;
@@ -354,19 +398,20 @@ void right_hand_side(Layout layout, const Parameters<P, N>& p, const PhaseCoeffi
     dyds[k] = y[n + k] * per_phase;
     dyds[n + k] = dyds[n + k] * per_phase;
   };
-  for (std::size_t k = 0; k < Slots::common(N); ++k) in_phase(k);
-  for (std::size_t k = Slots::common(N); k < n; ++k) in_phase(k);
+  constexpr std::size_t common = N == 1 ? 0 : Slots::common(N);
+  for (std::size_t k = 0; k < common; ++k) in_phase(k);
+  for (std::size_t k = common; k < n; ++k) in_phase(k);
 }
 
 /// Numbers of contact_distances().
 template <class P, std::size_t N>
 [[nodiscard]] std::size_t contacts_of(const Parameters<P, N>& p) {
-  return 4 * N + (gear::is_radial(p.sun_law) ? 1 : 4);
+  return (N == 1 ? 2 : 4 * N) + (gear::is_radial(p.sun_law) ? 1 : 4);
 }
 
 /// Distance of each contact from the kink of its clearance function: delta - b and delta + b of each planet's sun mesh
-/// and ring mesh, then of the sun's bearing x - b, x + b, y - b, y + b, or r - b of a radial law. Infinite if b = 0:
-/// without a gap no contact opens or closes, and the force has no kink.
+/// and ring mesh (a pair has no ring), then of the sun's bearing x - b, x + b, y - b, y + b, or r - b of a radial law.
+/// Infinite if b = 0: without a gap no contact opens or closes, and the force has no kink.
 ///
 /// @param y          as of right_hand_side()
 /// @param distances  contacts_of(p) numbers [b_c]
@@ -396,12 +441,14 @@ void contact_distances(Layout layout, const Parameters<P, N>& p, const PhaseCoef
       flanks(coefficients.delta(own, x)[0], coefficients.rate(own, rate)[0], m.half_gap);
     };
     mesh(p.sun_planet, now.sun_planet, d.sun_planet, d_rate.sun_planet);
-    mesh(p.ring_planet, now.ring_planet, d.ring_planet, d_rate.ring_planet);
+    if constexpr (N > 1) mesh(p.ring_planet, now.ring_planet, d.ring_planet, d_rate.ring_planet);
   }
-  const T& x_s = y[Slots::x_s];
-  const T& y_s = y[Slots::y_s];
-  const T& x_rate = velocities[Slots::x_s];
-  const T& y_rate = velocities[Slots::y_s];
+  const Coordinates<T, 1> q = unpack(layout, Planets<N, 1>{}, y);
+  const Coordinates<T, 1> v = unpack(layout, Planets<N, 1>{}, velocities);
+  const T& x_s = q.x_s;
+  const T& y_s = q.y_s;
+  const T& x_rate = v.x_s;
+  const T& y_rate = v.y_s;
   if (gear::is_radial(p.sun_law)) {
     const T r = safe_radius(x_s, y_s);
     *distances = r - p.sun_half_gap + away(p.sun_half_gap);
@@ -438,6 +485,10 @@ void evaluate_outputs(Layout layout, const Parameters<P, N>& p, const PhaseCoeff
   const Coordinates<T, 1> v = unpack(layout, Planets<N, 1>{}, y + degrees_of_freedom(layout, N));
   const BearingForce<T> sun = sun_bearing_force(p, q.x_s, q.y_s);
   rows[at.sun_bearing()] = magnitude(sun.x + p.damping_s * v.x_s, sun.y + p.damping_s * v.y_s);
+  if constexpr (N == 1) {
+    rows[at.transmission_error()] = q.w_s + q.w_p[0];
+    return;
+  }
   rows[at.transmission_error()] = q.w_s + q.u_r - q.u_c * (p.cos_alpha_sp + p.cos_alpha_rp);
 }
 

@@ -301,18 +301,23 @@ std::vector<Quantity> operating_quantities(const gear::Stage& stage, double mesh
   g.add("mesh_frequency_ratio", "Ω", mesh_frequency_ratio, "-", "of the study; 1 for a stage alone");
   g.add("mesh_frequency", "ω_m", mesh_frequency, "rad/s", "[M-23]");
   g.add("sun_speed", "n_s", speeds.sun * gear::rpm, "rpm", "[G-kin]");
-  g.add("carrier_speed", "n_c", speeds.carrier * gear::rpm, "rpm", "[G-kin]");
+  const bool pair = stage.is_pair();  // it has no carrier and no ring
+  if (!pair) g.add("carrier_speed", "n_c", speeds.carrier * gear::rpm, "rpm", "[G-kin]");
   g.add("sun_torque", "T_D", torques.sun, "N m", "[G-kin]");
-  g.add("carrier_load_torque", "T_c", torques.carrier, "N m", "[G-kin], external");
-  g.add("ring_load_torque", "T_r", torques.ring, "N m", "[G-kin], external; without the reaction of a support");
+  if (!pair) {
+    g.add("carrier_load_torque", "T_c", torques.carrier, "N m", "[G-kin], external");
+    g.add("ring_load_torque", "T_r", torques.ring, "N m", "[G-kin], external; without the reaction of a support");
+  }
   g.add("mean_mesh_force", "F", load.force_N, "N", "T_D / (N r_bs)");
   g.add("mean_planet_load", "F_p", gear::mean_planet_load(stage, mesh_frequency), "N",
         "both mesh forces on a planet's bearing");
-  g.add("planet_centrifugal_force", "m_p ω_c² r_c", gear::planet_centrifugal_force(stage, mesh_frequency), "N",
-        "[G-cf], in the equations of motion with /model/centrifugal \"included\"");
+  if (!pair)
+    g.add("planet_centrifugal_force", "m_p ω_c² r_c", gear::planet_centrifugal_force(stage, mesh_frequency), "N",
+          "[G-cf], in the equations of motion with /model/centrifugal \"included\"");
   g.add("mean_deflection", "F/k_0", gear::static_deflection_um(stage.sun_planet_mesh, load), "um", "sun-planet mesh");
-  g.add("mean_deflection_ring_planet", "F/k_0", gear::static_deflection_um(stage.ring_planet_mesh, load), "um",
-        "ring-planet mesh");
+  if (!pair)
+    g.add("mean_deflection_ring_planet", "F/k_0", gear::static_deflection_um(stage.ring_planet_mesh, load), "um",
+          "ring-planet mesh");
   const auto error = [&](const std::string& name, const gear::Mesh& mesh) {
     const double amplitude = std::ranges::max(mesh.error_amplitude_um);
     g.add(name + "_error_amplitude", "E", amplitude, "um", "[G-error], or as given; the largest of the planets");
@@ -320,7 +325,7 @@ std::vector<Quantity> operating_quantities(const gear::Stage& stage, double mesh
           "above 1 the error displaces the mesh more than the load does");
   };
   error("sun_planet", stage.sun_planet_mesh);
-  error("ring_planet", stage.ring_planet_mesh);
+  if (!pair) error("ring_planet", stage.ring_planet_mesh);
   return all;
 }
 
@@ -364,6 +369,13 @@ std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ra
   const double mesh_frequency = mesh_frequency_ratio * model::scales_of(stage).omega_sn;
   const gear::Speeds speeds = gear::speeds(stage, mesh_frequency);
   constexpr double giga = 1e9;
+  if (stage.is_pair())
+    return fmt::format(
+        "A pair of {}/{} teeth: ω_m = {:.4g} ω_1; at Ω = {:.4g} gear 1 rotates at {:.0f} rpm, T_1 = {:.4g} N m, mean "
+        "mesh force {:.4g} N; mean stiffness {:.4g} 10^9 N/m.",
+        *stage.sun.teeth, *stage.planet.teeth, mesh_frequency / speeds.sun, mesh_frequency_ratio,
+        speeds.sun * gear::rpm, gear::torques(stage, mesh_frequency).sun,
+        gear::mean_mesh_load(stage, mesh_frequency).force_N, stage.sun_planet_mesh.stiffness_N_per_m / giga);
   return fmt::format(
       "{}/{}/{} teeth, {} planets: ω_m = {:.4g} ω_s; at Ω = {:.4g} the sun rotates at {:.0f} rpm, the carrier at "
       "{:.0f} rpm, T_D = {:.4g} N m, mean mesh force {:.4g} N; mean stiffness {:.4g} (sun-planet) and {:.4g} "
@@ -378,6 +390,7 @@ std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ra
 std::string drive_words(const gear::Stage& stage) {
   const bool negative = gear::is_mirrored(stage);
   if (!stage.runs_backward() && !negative) return {};
+  if (stage.is_pair()) return "gear 1 drives; loaded flanks: those of negative torque on gear 1";
   const bool is_star = stage.boundary == gear::Boundary::star;
   const bool by_carrier = stage.driver == gear::Driver::carrier;
   const bool by_sun = stage.driver == gear::Driver::sun;

@@ -71,6 +71,17 @@ figures::FigureOutcome write_response_figure(const std::filesystem::path& folder
       figures::Pictures::none, not_converged_words);
 }
 
+namespace {
+
+/// A panel for each kind of mesh that there is.
+std::vector<figures::TrackPanel> of_meshes(const studies::PointSource& points, const char* sun, const char* ring) {
+  std::vector<figures::TrackPanel> panels = {{sun, {0}}};
+  if (points.count == 0 || !points.read_summary(0).meshes.is_pair()) panels.push_back({ring, {1}});
+  return panels;
+}
+
+}  // namespace
+
 figures::FigureOutcome write_largest_force_figure(const std::filesystem::path& folder, const std::string& stem,
                                                   const ResponseInput& input) {
   return figures::track_figure(
@@ -79,7 +90,7 @@ figures::FigureOutcome write_largest_force_figure(const std::filesystem::path& f
                 [](const StageRecord& r) {
                   return std::vector{r.dynamic_factor(r.sun_planet), r.dynamic_factor(r.ring_planet)};
                 }),
-      {{"Largest  F_{sp} / F_0", {0}}, {"Largest  F_{rp} / F_0", {1}}}, {}, figures::Pictures::none,
+      of_meshes(input.points, "Largest  F_{sp} / F_0", "Largest  F_{rp} / F_0"), {}, figures::Pictures::none,
       not_converged_words);
 }
 
@@ -99,7 +110,7 @@ figures::FigureOutcome write_kv_figure(const std::filesystem::path& folder, cons
                 [](const StageRecord& r) {
                   return std::vector{StageRecord::kv(r.sun_planet), StageRecord::kv(r.ring_planet)};
                 }),
-      {{"Dynamic factor  K_{v,sp}", {0}}, {"Dynamic factor  K_{v,rp}", {1}}}, {}, figures::Pictures::none,
+      of_meshes(input.points, "Dynamic factor  K_{v,sp}", "Dynamic factor  K_{v,rp}"), {}, figures::Pictures::none,
       not_converged_words);
 }
 

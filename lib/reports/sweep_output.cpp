@@ -208,12 +208,16 @@ std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter,
   return speed_above(parameter, given, first.omega, first.meshes);
 }
 
+bool is_pair(const studies::PointSource& points) { return points.count > 0 && points.read_summary(0).meshes.is_pair(); }
+
 std::string figure_title(const input::Study& study) {
   const gear::Boundary b = study.stage.boundary;
   const char* boundary = b == gear::Boundary::as_printed ? "as_printed"
                          : b == gear::Boundary::star     ? "star"
                                                          : "fixed ring";
-  std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
+  std::string title = study.name.empty() ? study.stage.name : study.name;
+  if (!title.empty()) title += ", ";
+  title += study.stage.is_pair() ? "pair of gears" : std::string("boundary ") + boundary;
   const bool speed_is_given = study.has_dynamics() && study.plan.kind()->at_given_speed &&
                               std::ranges::none_of(input::varied_parameters(study), [](const auto& varied) {
                                 return varied.axis.name == studies::speed_parameter;
@@ -325,6 +329,7 @@ std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folde
                                               const studies::PointSource& points, SweepFigure figure) {
   const auto stem = stem_of(output, figure);
   if (!stem) return std::nullopt;
+  if ((figure == SweepFigure::delta_rp || figure == SweepFigure::response_rp) && is_pair(points)) return std::nullopt;
   const figures::FigureText text = text_of(output, points, figure);
   const ResponseInput response{output.sweep, points, text};
   figures::FigureOutcome outcome;

@@ -45,6 +45,9 @@ inline constexpr const char* not_converged_words = "record not converged to the 
 /// Name of study or stage with the boundary and, unless it is swept, the speed: for figures.
 [[nodiscard]] std::string figure_title(const input::Study& study);
 
+/// Of a pair of gears, and not of a stage.
+[[nodiscard]] bool is_pair(const studies::PointSource& points);
+
 /// Data of a sweep for its files, besides its points.
 struct SweepOutput {
   studies::SweepOptions sweep;

@@ -66,6 +66,7 @@ std::vector<Column<BranchPlace>> branch_columns(std::size_t planets) {
   all.push_back({"orbit_residual", "b_c, b_c per tau", "by which the orbit found does not close",
                  Number([](const BranchPlace& p) { return p.row.residual; })});
   append(planet_columns(planets));
+  if (planets == 1) std::erase_if(all, [](const auto& column) { return !is_of_pair(column.name); });
   return all;
 }
 

@@ -110,6 +110,7 @@ std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<Po
   append(planet_columns(planets));
   add("message", "", "what went wrong, of a point that was not reached",
       Words([](const PointSummary& r) { return r.message; }));
+  if (planets == 1) std::erase_if(all, [](const PointColumn& column) { return !is_of_pair(column.name); });
   return all;
 }
 

@@ -89,6 +89,12 @@ std::string mesh_words(const Kind& kind, std::size_t planet) {
 
 }  // namespace
 
+bool is_of_pair(std::string_view column) {
+  const auto has = [column](std::string_view part) { return column.find(part) != std::string_view::npos; };
+  return !has("_rp") && !has("load_sharing") && !has("k_gamma") && column != "planet_spread" &&
+         column != "carrier_speed_rpm";
+}
+
 std::vector<StageColumn> contact_columns() {
   std::vector<StageColumn> all;
   for (const Kind& kind : kinds)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include "store/column.hpp"
@@ -19,5 +20,8 @@ using StageColumn = Column<studies::StageRecord>;
 
 /// Of each mesh and bearing of each planet.
 [[nodiscard]] std::vector<StageColumn> planet_columns(std::size_t planets);
+
+/// Does a lone pair of gears have the column? It has no ring, no carrier, and nothing to share loads with.
+[[nodiscard]] bool is_of_pair(std::string_view column);
 
 }  // namespace epicyclic::store

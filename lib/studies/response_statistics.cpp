@@ -272,6 +272,10 @@ StageRecord ResponseStatistics::finish() {
     all.ring_planet.push_back(mesh(rows_.ring_planet(i), ring_planet_[i]));
     all.planet_bearing.push_back(course(rows_.planet_bearing(i), newton));
   }
+  if (!model_.has_ring()) {
+    all.ring_planet.assign(1, MeshRecord());
+    all.ring_planet[0].drive = 1.0;
+  }
   all.planet_spread = largest_of(spread_);
   all.force_error = force_error();
   all.sun_bearing = course(rows_.sun_bearing(), newton);

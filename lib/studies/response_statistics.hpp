@@ -17,6 +17,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -85,7 +86,7 @@ using MeshHarmonics = std::array<double, 3>;
 
 struct StageRecord {
   std::vector<MeshRecord> sun_planet;   ///< one per planet
-  std::vector<MeshRecord> ring_planet;  ///< one per planet
+  std::vector<MeshRecord> ring_planet;  ///< one per planet; of a pair one without forces, always in contact
   double planet_spread = 0;             ///< largest difference between planets' deflections of one kind of mesh [b_c]
   std::vector<Course> planet_bearing;   ///< magnitude of the force, one per planet [N]
   Course sun_bearing;                   ///< likewise
@@ -98,6 +99,11 @@ struct StageRecord {
   double static_force = 0;    ///< F_0 [N]
   double mesh_frequency = 0;  ///< omega_m [rad/s]
   gear::Speeds speeds{};
+
+  /// Of a pair of gears: one planet, and nothing is known of a force of the ring's mesh.
+  [[nodiscard]] bool is_pair() const {
+    return sun_planet.size() == 1 && ring_planet.size() == 1 && std::isnan(ring_planet.front().force.largest);
+  }
 
   /// [S-share] of planets' meshes of one kind, by a number of each.
   /// @returns not a number of forces without a sum

@@ -36,14 +36,14 @@ class Recorder {
     add("tau", "1");
     const std::size_t n = model.state_names.size() / 2;
     for (std::size_t k = 0; k < 2 * n; ++k) add(model.state_names[k], k < n ? "b_c" : "b_c per tau");
-    add_planets("delta_sp_", "", "b_c");
-    add_planets("delta_rp_", "", "b_c");
-    add_planets("delta_sp_", "_rate", "b_c per tau");
-    add_planets("delta_rp_", "_rate", "b_c per tau");
-    add_planets("force_sp_", "", "N");
-    add_planets("force_rp_", "", "N");
-    add_planets("load_sharing_sp_", "", "1");
-    add_planets("load_sharing_rp_", "", "1");
+    const auto add_meshes = [&](const std::string& what, const std::string& behind, const char* unit) {
+      add_planets(what + "_sp_", behind, unit);
+      if (model.has_ring()) add_planets(what + "_rp_", behind, unit);
+    };
+    add_meshes("delta", "", "b_c");
+    add_meshes("delta", "_rate", "b_c per tau");
+    add_meshes("force", "", "N");
+    if (model.has_ring()) add_meshes("load_sharing", "", "1");
     add_planets("bearing_planet_", "", "N");
     add("bearing_sun", "N");
   }
@@ -63,11 +63,17 @@ class Recorder {
     put(phase / whole);
     put(phase / model_.omega);
     put(y);
-    for (const auto* list : {&d_.sun_planet, &d_.ring_planet, &d_.sun_planet_rate, &d_.ring_planet_rate}) put(*list);
-    for (const auto* list : {&f_.sun_planet, &f_.ring_planet}) put_newtons(*list);
-    for (const auto* list : {&f_.sun_planet, &f_.ring_planet}) {
-      const double sum = std::accumulate(list->begin(), list->end(), 0.0);
-      for (const double f : *list) put(static_cast<double>(list->size()) * f / sum);
+    if (model_.has_ring()) {
+      for (const auto* list : {&d_.sun_planet, &d_.ring_planet, &d_.sun_planet_rate, &d_.ring_planet_rate}) put(*list);
+      for (const auto* list : {&f_.sun_planet, &f_.ring_planet}) put_newtons(*list);
+      for (const auto* list : {&f_.sun_planet, &f_.ring_planet}) {
+        const double sum = std::accumulate(list->begin(), list->end(), 0.0);
+        for (const double f : *list) put(static_cast<double>(list->size()) * f / sum);
+      }
+    } else {
+      put(d_.sun_planet);
+      put(d_.sun_planet_rate);
+      put_newtons(f_.sun_planet);
     }
     put_newtons(f_.planet_bearing);
     put(scales_.force_newton(f_.sun_bearing));
@@ -287,6 +293,9 @@ class Run {
           });
       if (!e.reached()) return;
     }
+    if (!model_.has_ring())
+      std::erase_if(signals,
+                    [](const Signal& s) { return std::string_view(s.name).find("_rp_") != std::string_view::npos; });
     for (Signal& signal : signals) r.spectra.push_back(spectrum_of(std::move(signal), phases, exact, n));
   }
 
@@ -355,6 +364,7 @@ class Run {
     const StageRecord all = statistics(r.history);
     for (const char* kind : {"sp", "rp"}) {
       const bool of_sun = kind[0] == 's';
+      if (!of_sun && !model_.has_ring()) continue;
       const double gap = of_sun ? model_.sun_planet_half_gap : model_.ring_planet_half_gap;
       const std::vector<MeshRecord>& meshes = of_sun ? all.sun_planet : all.ring_planet;
       for (std::size_t i = 0; i < planets; ++i) {

@@ -104,7 +104,8 @@ class PointRun {
   }
 
   void keep_section(const analysis::PoincareSection& section) {
-    result_.poincare_columns = model_.dimension + 2 * static_cast<std::size_t>(model_.planets);
+    result_.poincare_columns =
+        model_.dimension + (model_.has_ring() ? 2U : 1U) * static_cast<std::size_t>(model_.planets);
     model::MeshDeflections d;
     for (std::size_t k = 0; k < section.size(); ++k) append_poincare_row(model_, section.point(k), d, result_.poincare);
   }
@@ -323,7 +324,8 @@ std::string regime_text(const PointSummary& result) {
 std::vector<std::string> poincare_columns(const model::DynamicModel& model) {
   std::vector<std::string> names = model.state_names;
   for (const char* mesh : {"delta_sp_", "delta_rp_"})
-    for (int i = 1; i <= model.planets; ++i) names.push_back(mesh + std::to_string(i));
+    for (int i = 1; i <= model.planets; ++i)
+      if (mesh[6] == 's' || model.has_ring()) names.push_back(mesh + std::to_string(i));
   return names;
 }
 
@@ -341,7 +343,7 @@ void append_poincare_row(const model::DynamicModel& model, std::span<const doubl
   model.deflections(0.0, y.data(), d);
   rows.insert(rows.end(), y.begin(), y.end());
   rows.insert(rows.end(), d.sun_planet.begin(), d.sun_planet.end());
-  rows.insert(rows.end(), d.ring_planet.begin(), d.ring_planet.end());
+  if (model.has_ring()) rows.insert(rows.end(), d.ring_planet.begin(), d.ring_planet.end());
 }
 
 PointResult compute_point(const GridPoint& point, const model::DynamicModel& model, const std::vector<double>& start,

@@ -80,7 +80,7 @@ const Table<Study>& basins_table() {
 void check_basins(const Study& study, const IsBad& is_bad, ReadContext& context) {
   const auto& basins = study.plan.as<BasinsOptions>();
   const gear::Stage& stage = study.stage;
-  if (stage.planet_count < gear::planets_min || stage.planet_count > gear::planets_max) return;
+  if (stage.planet_count < 1 || stage.planet_count > gear::planets_max) return;
   const studies::Plane& plane = basins.plane;
   const std::vector<std::string> names = state_names(stage);
   const auto known = [&](const std::string& name) {

@@ -116,6 +116,9 @@ void write_basins_csv(const std::filesystem::path& file, const std::vector<Point
   write_points_csv(file, studies::points_in_memory(results), {second_value_column(), attractor_column(attractors)});
 }
 
+/// An extreme of no values, as of the ring's mesh of a pair of gears, is not known.
+double known(double extreme) { return std::isfinite(extreme) ? extreme : std::numeric_limits<double>::quiet_NaN(); }
+
 void write_attractors_csv(const std::filesystem::path& file, const BasinsOutput& output,
                           const std::vector<PointSummary>& results, const Attractors& attractors) {
   std::vector<std::string> columns = {
@@ -128,7 +131,7 @@ void write_attractors_csv(const std::filesystem::path& file, const BasinsOutput&
     csv.cell(r.number).cell(r.regime).cell(r.period).cell(r.cells).cell(r.share);
     csv.cell(r.exponent.value).cell(r.exponent.half_width);
     csv.cell(r.first->point.index).cell(r.first->point.value).cell(r.first->point.second_value);
-    csv.cell(r.sp.low).cell(r.sp.high).cell(r.rp.low).cell(r.rp.high).cell(r.spread).cell(r.orbit_error);
+    csv.cell(r.sp.low).cell(r.sp.high).cell(known(r.rp.low)).cell(known(r.rp.high)).cell(r.spread).cell(r.orbit_error);
     csv.cell(r.image_of).cell(r.rotation);
     for (const double x : r.state) csv.cell(x);
     csv.end_row();

@@ -524,11 +524,10 @@ void BranchSketch::add_contacts() {
   using studies::MeshRecord;
   constexpr auto loss = +[](const MeshRecord& m) { return m.loss(); };
   constexpr auto back = +[](const MeshRecord& m) { return m.back; };
-  constexpr std::array<Strip, 4> strips = {{{4.0, "sp loss", true, loss},
-                                            {3.0, "sp back", true, back},
-                                            {2.0, "rp loss", false, loss},
-                                            {1.0, "rp back", false, back}}};
-  figures::FigurePanel panel{"Contact", {0.4, 4.6}, {}, 0.9};
+  std::vector<Strip> strips = {{4.0, "sp loss", true, loss}, {3.0, "sp back", true, back}};
+  const bool ring = output_.planets > 1;
+  if (ring) strips.insert(strips.end(), {{2.0, "rp loss", false, loss}, {1.0, "rp back", false, back}});
+  figures::FigurePanel panel{"Contact", {ring ? 0.4 : 2.4, 4.6}, {}, ring ? 0.9 : 0.6};
   for (const Strip& s : strips) panel.names.emplace_back(s.y, s.name);
   sketch_.panel(panel);
   Lines lines;
@@ -641,7 +640,8 @@ std::vector<DrawnFigure> draw_continue_figures(const std::filesystem::path& fold
   std::vector<DrawnFigure> figures;
   for (const auto& [mesh, stem] :
        {std::pair(MeshKind::sun_planet, "branches_delta_sp"), std::pair(MeshKind::ring_planet, "branches_delta_rp")})
-    figures.push_back(BranchSketch(stem, output, traced, mesh).draw(folder));
+    if (mesh == MeshKind::sun_planet || output.planets > 1)
+      figures.push_back(BranchSketch(stem, output, traced, mesh).draw(folder));
   return figures;
 }
 

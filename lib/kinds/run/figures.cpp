@@ -175,17 +175,18 @@ class RunFigures {
   }
 
   void history() {
-    if (!has_column(h_, "delta_sp_1") || !has_column(h_, "delta_rp_1")) return;
+    if (!has_column(h_, "delta_sp_1")) return;
+    const bool ring = has_column(h_, "delta_rp_1");
     const Window w = last_periods(h_, output_.options.shown_periods);
     const Curve sp = over_time(h_, w, h_.column("delta_sp_1"));
-    const Curve rp = over_time(h_, w, h_.column("delta_rp_1"));
+    const Curve rp = ring ? over_time(h_, w, h_.column("delta_rp_1")) : Curve{};
     figures::FigureRange data = range_of(sp, 1);
     for (const Row2& row : rp) data.include(row[1]);
     const figures::FigureRange y = y_range(data);
     const figures::FigureRange x{0.0, w.periods};
     figures::Sketch sketch("history");
     // Flanks in the colour of their mesh, or grey if both meshes have the same.
-    const bool same = output_.half_gap_sp == output_.half_gap_rp;
+    const bool same = !ring || output_.half_gap_sp == output_.half_gap_rp;
     const auto flanks = [&](double gap, std::string_view colour, const std::string& name) {
       bool seen = false;
       for (const double flank : {gap, -gap}) {
@@ -198,7 +199,7 @@ class RunFigures {
     flanks(output_.half_gap_sp, same ? dark_grey : blue, same ? "flanks  ±b" : "flanks  ±b_{sp}");
     if (!same) flanks(output_.half_gap_rp, red, "flanks  ±b_{rp}");
     sketch.add(sp, figures::solid(blue), "δ_{sp,1}");
-    sketch.add(rp, figures::solid(red), "δ_{rp,1}");
+    if (ring) sketch.add(rp, figures::solid(red), "δ_{rp,1}");
     finish(sketch, std::string(time_label), "Deflection  δ / b_c", x, y);
   }
 
@@ -409,12 +410,13 @@ class RunFigures {
     std::string tics;
     const double half = 0.5 / static_cast<double>(h_.phases);
     constexpr double half_height = 0.36;
-    for (std::size_t row = 0; row < 2 * n; ++row) {
+    const std::size_t meshes = has_column(h_, "delta_rp_1") ? 2 * n : n;
+    for (std::size_t row = 0; row < meshes; ++row) {
       const bool sun = row < n;
       const std::size_t planet = sun ? row : row - n;
       const std::vector<double> delta = h_.column(fmt::format("delta_{}_{}", sun ? "sp" : "rp", planet + 1));
       const double gap = sun ? output_.half_gap_sp : output_.half_gap_rp;
-      const double y = static_cast<double>(2 * n - 1 - row);
+      const double y = static_cast<double>(meshes - 1 - row);
       tics +=
           fmt::format("{}'{}_{}' {}", row > 0 ? ", " : "", sun ? "sp" : "rp", planet + 1, figures::figure_number(y));
       const auto side = [&](std::size_t k) { return model::DynamicModel::contact(delta[k], gap); };
@@ -436,7 +438,7 @@ class RunFigures {
       sketch.add(boxes[k], fmt::format("boxxyerror fillstyle solid 1.0 noborder linecolor '{}'", colours[k]));
       sketch.entry(fmt::format("filledcurves fillstyle solid 1.0 noborder fillcolor '{}'", colours[k]), names[k]);
     }
-    finish(sketch, std::string(time_label), "Mesh", {0.0, w.periods}, {-0.7, static_cast<double>(2 * n) - 0.3});
+    finish(sketch, std::string(time_label), "Mesh", {0.0, w.periods}, {-0.7, static_cast<double>(meshes) - 0.3});
   }
 
   /// Do two planets have one curve, as far as a picture shows?
@@ -469,15 +471,16 @@ class RunFigures {
 
   void mesh_force() {
     const std::size_t n = planets();
-    if (n == 0 || !(result_.static_force > 0.0) || !has_column(h_, "force_sp_1") || !has_column(h_, "force_rp_1"))
-      return;
+    if (n == 0 || !(result_.static_force > 0.0) || !has_column(h_, "force_sp_1")) return;
+    const bool ring = has_column(h_, "force_rp_1");
     const Window w = last_periods(h_, output_.options.shown_periods);
     figures::Sketch sketch("mesh_force");
     // Synchronous planets are one curve for each mesh; others have a frame for each mesh.
-    const bool one = planets_coincide("force_sp", n, w) && planets_coincide("force_rp", n, w);
+    const bool one = !ring || (planets_coincide("force_sp", n, w) && planets_coincide("force_rp", n, w));
     figures::FigureRange both;
     for (const char* mesh : {"sp", "rp"}) {
       const bool sun = mesh[0] == 's';
+      if (!sun && !ring) continue;
       std::vector<Curve> curves;
       figures::FigureRange y;
       for (std::size_t i = 0; i < (one ? 1 : n); ++i) {
@@ -493,7 +496,8 @@ class RunFigures {
         sketch.add(
             curves[i],
             one ? figures::solid(sun ? planet_colours[0] : red) : style_of(fmt::format("force_{}", mesh), i + 1, w),
-            one   ? fmt::format("F_{{{}}}, all planets", mesh)
+            !ring ? std::string("F_{sp}")
+            : one ? fmt::format("F_{{{}}}, all planets", mesh)
             : sun ? fmt::format("planet {}", i + 1)
                   : std::string());
     }

@@ -528,8 +528,8 @@ std::string bearings_text(const studies::StageRecord& stage) {
       rows.push_back({name, fmt::format("{:.5g}", force.mean), fmt::format("{:.5g}", force.largest)});
   };
   for (std::size_t i = 0; i < stage.planet_bearing.size(); ++i)
-    add(fmt::format("planet {}", i + 1), stage.planet_bearing[i]);
-  add("sun", stage.sun_bearing);
+    add(stage.is_pair() ? std::string("gear 2") : fmt::format("planet {}", i + 1), stage.planet_bearing[i]);
+  add(stage.is_pair() ? "gear 1" : "sun", stage.sun_bearing);
   if (rows.size() == 1) return {};
   return "\n## Bearings\n\n" + aligned(rows) + "\n" + wrapped("Magnitude of the force, its mean and largest value.");
 }
@@ -567,6 +567,7 @@ std::string meshes_text(const RunOutput& output, const RunResult& r) {
       "\n" + wrapped(fmt::format("Over {:g} mesh periods. Columns: docs/reference/outputs.md, \"Summary of a run\".",
                                  record_periods(r.history)));
   text += tensile_text(output, r);
+  if (r.point.meshes.is_pair()) return text;
   text += "\n" + wrapped(fmt::format("Planets' spread: {:.3g} b_c, the largest difference between their deflections.",
                                      r.point.meshes.planet_spread));
   return text;
@@ -754,12 +755,14 @@ void write_run_h5(const std::filesystem::path& file, const RunOutput& output, co
 
 std::string run_summary(const RunOutput& output, const RunResult& r) {
   std::string text = fmt::format("# {}\n\n", output.points.title);
-  text +=
-      wrapped(fmt::format("Operating point: mesh frequency ratio Ω = {}: {}; half gaps b_sp = {}, b_rp = {} b_c (b_c = "
-                          "{:g} µm); static mesh force F_0 = {:.1f} N.",
-                          short_text(r.omega, 8), speed_words(r.point.meshes.speeds, r.point.meshes.mesh_frequency),
-                          short_text(output.half_gap_sp, 6), short_text(output.half_gap_rp, 6),
-                          1e6 * model::length_scale_m, r.static_force));
+  text += wrapped(fmt::format(
+      "Operating point: mesh frequency ratio Ω = {}: {}; {} b_c (b_c = {:g} µm); static mesh force "
+      "F_0 = {:.1f} N.",
+      short_text(r.omega, 8), speed_words(r.point.meshes.speeds, r.point.meshes.mesh_frequency),
+      r.point.meshes.is_pair() ? fmt::format("half gap b = {}", short_text(output.half_gap_sp, 6))
+                               : fmt::format("half gaps b_sp = {}, b_rp = {}", short_text(output.half_gap_sp, 6),
+                                             short_text(output.half_gap_rp, 6)),
+      1e6 * model::length_scale_m, r.static_force));
   if (!output.start.empty()) text += "\n" + wrapped(fmt::format("Start: {}.", fmt::join(output.start, "; ")));
   const std::string work = fmt::format("\nWork: {} right-hand sides.\n", r.point.rhs_evaluations);
   if (!ok(r)) {

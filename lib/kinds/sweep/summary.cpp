@@ -99,14 +99,15 @@ struct Largest {
   std::string at{};  ///< in words
 };
 
-std::vector<Largest> largest_of() {
+/// @param pair  of a pair of gears, which has no ring, and nothing to share loads with
+std::vector<Largest> largest_of(bool pair) {
   const auto greatest = [](const std::vector<studies::MeshRecord>& meshes, auto number) {
     double most = 0.0;
     for (const studies::MeshRecord& mesh : meshes) most = std::max(most, number(mesh));
     return most;
   };
   const auto force = [](const Course& c) { return c.largest; };
-  return {
+  std::vector<Largest> all = {
       // The first four are also in the short lines.
       {"dynamic factor K_v of a sun mesh", "1",
        [](const PointSummary& r) { return studies::StageRecord::kv(r.meshes.sun_planet); }},
@@ -145,6 +146,12 @@ std::vector<Largest> largest_of() {
       {"largest mesh force of a planet, over the average of the planets", "1",
        [](const PointSummary& r) { return r.meshes.largest_share(&Course::largest); }},
   };
+  if (pair)
+    std::erase_if(all, [](const Largest& l) {
+      const auto has = [&l](std::string_view part) { return l.what.find(part) != std::string::npos; };
+      return has("ring") || has("delta_rp") || has("K_gamma") || has("average of the planets");
+    });
+  return all;
 }
 
 /// The summary of a sweep.
@@ -196,7 +203,7 @@ class Summary {
   double force_error_ = 0;                                                    ///< largest of the points
   double tensile_force_ = 0;  ///< largest tension, over the static mesh force
   double tensile_time_ = 0;   ///< largest part of the time
-  std::vector<Largest> largest_ = largest_of();
+  std::vector<Largest> largest_ = largest_of(points_.count > 0 && points_.read_summary(0).meshes.is_pair());
 
   [[nodiscard]] std::string place(double value) const { return words_.text(value, place_digits); }
 
@@ -394,8 +401,10 @@ class Summary {
         s.lines.push_back(fmt::format("largest {}: {} at {}", more.what, short_text(*more.value, 4), more.at));
       s.numbers[number] = *more.value;
     };
-    add_line(largest_[0], largest_[1], "largest_kv");
-    add_line(largest_[2], largest_[3], "largest_dynamic_factor");
+    // Of the sun meshes and, of a stage, of the ring meshes.
+    const std::size_t kinds = largest_[1].what.find("ring") != std::string::npos ? 2 : 1;
+    add_line(largest_[0], largest_[kinds - 1], "largest_kv");
+    add_line(largest_[kinds], largest_[2 * kinds - 1], "largest_dynamic_factor");
   }
 
   void add_doubts(SweepSummary& s) const {

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "core/instruction_set.hpp"
+#include "model/dispatch.hpp"
 
 namespace epicyclic::model {
 
@@ -76,17 +77,7 @@ LaneKernel<N, W> kernel_of_layout(const char* name, [[maybe_unused]] std::size_t
 
 template <std::size_t N, std::size_t W>
 LaneKernel<N, W> lane_kernel(Layout layout, const char* name, std::size_t copy) {
-  switch (layout) {
-    case Layout::relative_to_ring:
-      return kernel_of_layout<Layout::relative_to_ring, N, W>(name, copy);
-    case Layout::relative_to_carrier:
-      return kernel_of_layout<Layout::relative_to_carrier, N, W>(name, copy);
-    case Layout::relative_to_carrier_rigid_ring:
-      return kernel_of_layout<Layout::relative_to_carrier_rigid_ring, N, W>(name, copy);
-    case Layout::full:
-      break;
-  }
-  return {};
+  return with_layout<N>(layout, [&]<Layout L>() { return kernel_of_layout<L, N, W>(name, copy); });
 }
 
 template <std::size_t N, std::size_t W>

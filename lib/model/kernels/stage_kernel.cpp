@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "core/instruction_set.hpp"
+#include "model/dispatch.hpp"
 
 namespace epicyclic::model {
 
@@ -31,18 +32,8 @@ StageKernel<N> stage_kernel([[maybe_unused]] Layout layout, const char* name) {
   const std::string_view wanted(name);
   if (wanted == "baseline") return &baseline::evaluate<N>;
 #ifdef EPICYCLIC_X86_KERNELS
-  if (wanted == "avx2" && machine_runs(wanted)) {
-    switch (layout) {
-      case Layout::relative_to_ring:
-        return &avx2::evaluate<Layout::relative_to_ring, N>;
-      case Layout::relative_to_carrier:
-        return &avx2::evaluate<Layout::relative_to_carrier, N>;
-      case Layout::relative_to_carrier_rigid_ring:
-        return &avx2::evaluate<Layout::relative_to_carrier_rigid_ring, N>;
-      case Layout::full:
-        return nullptr;
-    }
-  }
+  if (wanted == "avx2" && machine_runs(wanted))
+    return with_layout<N>(layout, []<Layout L>() -> StageKernel<N> { return &avx2::evaluate<L, N>; });
 #endif
   return nullptr;
 }
