@@ -696,11 +696,12 @@ class StudyReport {
     const bool same = identity_of(input_, input_.study.kind()) == run_["identity"].get<std::string>();
     const studies::SweepPlan plan = input::plan_of(input_.study);
     std::function<model::DynamicModel(std::size_t)> model_at;
-    if (same)
-      model_at = [&plan, at = input::model_at_point(input_)](std::size_t point) { return at(plan.points[point]); };
-    else
+    if (same) {
+      const studies::ModelAtPoint model_of = input::model_at_point(input_);
+      model_at = [&plan, model_of](std::size_t point) { return model_of(plan.points[point]); };
+      if (complete_) add_changes(model_of);
+    } else
       leave_out("Rates at the Poincaré points, and histories: another version of the numerics computed this study.");
-    if (same && complete_) add_changes(model_at);
     SweepRecords records = sweep_records(
         points_, [this](std::size_t point) { return store_->read(point); }, model_at, input_.study.integrator,
         stop_here_);
@@ -713,12 +714,12 @@ class StudyReport {
   }
 
   /// Multipliers of the periodic orbits beside changes of the regime.
-  void add_changes(const std::function<model::DynamicModel(std::size_t)>& model_at) {
+  void add_changes(const studies::ModelAtPoint& model_at) {
     std::vector<studies::PointSummary> points;
     for (const std::size_t point : points_) {
       studies::PointSummary summary = store_->read_summary(point);
       if (summary.orbit.empty() && summary.period > 0)
-        summary.orbit = studies::state_on(store_->read(point), model_at(point).dimension);
+        summary.orbit = studies::state_on(store_->read(point), model_at(summary.point).dimension);
       points.push_back(std::move(summary));
     }
     const ChangeMultipliers changes = change_multipliers(points, model_at, input_.study.integrator, stop_here_);
