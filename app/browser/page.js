@@ -4,7 +4,7 @@ import { capital, element, lengthUnit, number, rich, tableOf, unitText } from '.
 import { Diagram } from './diagram.js';
 import { Plane } from './plane.js';
 import { Run, titleOfTable } from './run.js';
-import { commandLine } from './details.js';
+import { commandLine, decodeAhead } from './details.js';
 import { chartOf, hasUsualChart } from './chart.js';
 import { Live } from './live.js';
 import { hasModes, modesFigure } from './modes.js';
@@ -272,6 +272,7 @@ async function show() {
       page.append(part);
       figuresOf(group, host);
     }
+    for (const study of header.studies) if (study.kind === 'sweep') decodeAhead(study);
     document.body.dataset.state = 'ready';
   } catch (error) {
     page.replaceChildren(

@@ -412,8 +412,9 @@ export class Raster {
     ++this.drawn;
   }
 
+  /// Makes the image of what was added.
   /// @param colours  "#rrggbb" of each
-  paint(context, colours) {
+  render(colours) {
     let places = 0;
     for (const n of this.count) if (n > 0) ++places;
     const size = Math.max(1, Math.round((places < 4000 ? 2.6 : 1.6) * this.place.ratio));
@@ -437,9 +438,13 @@ export class Raster {
           image.data[byte + 3] = alpha;
         }
     }
-    const canvas = new OffscreenCanvas(width, height);
-    canvas.getContext('2d').putImageData(image, 0, 0);
-    context.drawImage(canvas, Math.round(this.place.left), Math.round(this.place.top));
+    this.canvas = new OffscreenCanvas(width, height);
+    this.canvas.getContext('2d').putImageData(image, 0, 0);
+    this.count = this.of = null;
+  }
+
+  paint(context) {
+    context.drawImage(this.canvas, Math.round(this.place.left), Math.round(this.place.top));
   }
 }
 
