@@ -413,7 +413,7 @@ class StudyReport {
                  const std::vector<std::vector<std::string>>& cells) {
     const std::size_t rows = cells.empty() ? 0 : cells.front().size();
     ReportTable table(name, title_of_table(name), rows);
-    std::set<std::string> kept_exact = {"value", "second_value", "error_bound"};
+    std::set<std::string> kept_exact = {"value", "second_value", "error_bound", "frequency", "amplitude"};
     for (std::size_t k = 0; k < columns.size(); ++k) {
       stop_here_();
       std::vector<double> numbers;
@@ -571,6 +571,9 @@ class StudyReport {
       else
         all.push_back({{"name", name}, {"text", std::move(text)}});
     }
+    // The results of the study itself come first.
+    const std::string own = std::string(input_.study.kind()) + ".md";
+    std::stable_partition(all.begin(), all.end(), [&](const json& one) { return one["name"] == own; });
     if (!all.empty()) study_["summaries"] = std::move(all);
   }
 
