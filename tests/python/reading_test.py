@@ -351,7 +351,8 @@ class Figures(unittest.TestCase):
         # Two columns of one result; names of one's own; axes that were cleared.
         axes = self.draw(speed, "kv_sp", direction="up")
         self.draw(speed, "kv_rp", ax=axes, direction="up")
-        self.assertTrue({"speed, kv_sp: up", "speed, kv_rp: up"} <= set(legend(axes)), legend(axes))
+        self.assertTrue({"kv_sp: up", "kv_rp: up"} <= set(legend(axes)), legend(axes))
+        self.assertEqual(axes.get_ylabel(), "kv_sp, kv_rp")
         axes.clear()
         self.draw(speed, "kv_sp", ax=axes, direction="up", label="60 N m")
         self.assertIn("60 N m: up", legend(axes))
@@ -367,6 +368,8 @@ class Figures(unittest.TestCase):
         for name in KINDS:
             with self.subTest(name), self.assertRaisesRegex(ep.ResultError, "no column no_such"):
                 ep.open(RESULTS / name).plot("no_such")
+        with self.assertRaisesRegex(ep.ResultError, "did you mean .*force_sp_max"):
+            ep.open(RESULTS / "speed").plot("force_sp_maximum")
         with self.assertRaisesRegex(ep.ResultError, "has texts"):
             ep.open(RESULTS / "speed").plot("status")
         with self.assertRaisesRegex(ep.ResultError, "no direction"):

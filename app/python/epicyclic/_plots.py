@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import weakref
 from pathlib import Path
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
@@ -86,8 +87,10 @@ def plot(
         raise TypeError(f"ax is {type(ax).__name__}, must be Axes of matplotlib")
     if name is not None and not isinstance(name, str):
         raise TypeError(f"label is {word_of(name)}, must be a text")
-    before = set(ax.lines)
+    before, label = set(ax.lines), ax.get_ylabel() if _drawn.get(ax) else ""
     drawing(ax)
+    if label and ax.get_ylabel() not in label.split(", "):
+        ax.set_ylabel(f"{label}, {ax.get_ylabel()}")
     if not isinstance(result, Map):
         _distinguish(ax, [line for line in ax.lines if line not in before], result, name, quantity)
         if not isinstance(result, Run) or quantity is None or name is not None or len(_drawn[ax]) > 1:
@@ -113,9 +116,10 @@ def _distinguish(ax: Any, lines: List[Any], result: Result, name: Optional[str],
         words = one.name
         if words is None and len(drawn) > 1:
             alike = any(other != one.folder and other.name == one.folder.name for other in folders)
-            words = str(Path(*one.folder.parts[-2:])) if alike else one.folder.name
+            parts = [] if len(set(folders)) == 1 else [str(Path(*one.folder.parts[-2:])) if alike else one.folder.name]
             if folders.count(one.folder) > 1 and one.quantity is not None:
-                words += f", {one.quantity}"
+                parts.append(one.quantity)
+            words = ", ".join(parts) or None
         for line, label in one.labels:
             line.set_label(label if words is None else f"{_literal(words)}: {label}")
 
@@ -189,7 +193,9 @@ def _label_abscissa(result: Result, ax: Any) -> None:
 
 def _numbers(result: Result, table: Table, quantity: str) -> Array:
     if quantity not in table.columns:
-        raise ResultError(f"{result.folder}: no column {word_of(quantity)} to draw; there are {', '.join(table.columns)}")
+        near = difflib.get_close_matches(quantity, table.columns) if isinstance(quantity, str) else []
+        words = f"did you mean {', '.join(near)}?" if near else f"there are {', '.join(table.columns)}"
+        raise ResultError(f"{result.folder}: no column {word_of(quantity)} to draw; {words}")
     values = table.columns[quantity]
     if values.dtype.kind not in "if":
         raise ResultError(f"{result.folder}: column {word_of(quantity)} has texts, not numbers")
