@@ -18,7 +18,8 @@ without_drawing
 ln -s "$inputs" inputs
 
 run() {
-  "$python" -W ignore "$here/run_page.py" "$source_dir/docs/tutorials/$1.md" >log 2>&1 || fail "$1: $(tail -n 15 log)"
+  local page=$source_dir/docs/tutorials/$1
+  "$python" -W ignore "$here/run_page.py" "${page}.md" >log 2>&1 || fail "$1: $(tail -n 15 log)"
   tail -n 1 log
 }
 
