@@ -134,7 +134,8 @@ class Studies(Folders):
         self.assertEqual(stage("tang2020.json").check()["problems"], [])
         problem = stage("tang2020_map.json").check("sweep", poitns=4)["problems"][0]
         self.assertEqual((problem.file, problem.pointer, problem.suggestion), ("", "/study/poitns", "points"))
-        self.assertTrue(ep.Stage.from_drawing(teeth=(21, 28)).check()["warnings"])
+        drawn = ep.Stage.from_drawing(teeth=(24, 30), module_mm=2.5, width_mm=30, torque_Nm=60)
+        self.assertRegex(drawn.check()["warnings"][0], "^/stage/.*the estimate decides the regime")
         self.assertNotIn("points", stage("tang2020_branches.json").check())
         with self.assertRaises(TypeError):
             stage("tang2020.json").check(points=4)

@@ -203,7 +203,8 @@ class Stage:
             raise TypeError("keys of a study need its kind: check('sweep', ...)")
         try:
             found = _parsed(document if kind is None else self.study(kind, **keys))
-            return {"problems": [], "warnings": found.warnings(), **found.points()}
+            texts = [text.removeprefix("warning: ") for text in found.warnings()]
+            return {"problems": [], "warnings": texts, **found.points()}
         except InputError as error:
             if not error.problems:
                 raise
