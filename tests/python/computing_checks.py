@@ -139,7 +139,9 @@ class Studies(Folders):
         self.assertNotIn("points", stage("tang2020_branches.json").check())
         with self.assertRaises(TypeError):
             stage("tang2020.json").check(points=4)
-        self.assertTrue(stage().check(3)["problems"])
+        self.assertTrue(stage().check("swep")["problems"])
+        with self.assertRaises(TypeError):
+            stage().check([[3]])
 
     def test_gear(self):
         found = stage("tang2020.json").gear()

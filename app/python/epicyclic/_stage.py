@@ -201,6 +201,8 @@ class Stage:
             kind = document.get("study", {}).get("kind")
         if kind is None and keys:
             raise TypeError("keys of a study need its kind: check('sweep', ...)")
+        if not (kind is None or isinstance(kind, str)):
+            raise TypeError(f"kind is {repr_of(kind)}, must be a text")
         try:
             found = _parsed(document if kind is None else self.study(kind, **keys))
             texts = [text.removeprefix("warning: ") for text in found.warnings()]
