@@ -190,7 +190,7 @@ export function specialTable(diagram) {
     element('summary', { text: `Special points of the branches: ${rows.length}` }),
     element(
       'div',
-      { class: 'scroll tall', tabIndex: 0, role: 'region', 'aria-label': 'Special points' },
+      { class: 'scroll tall special', tabIndex: 0, role: 'region', 'aria-label': 'Special points' },
       tableOf(
         [diagram.parameter.symbol, 'Type', 'Branch', 'Period', 'Multipliers on the unit circle', 'Symmetry, contact'],
         rows,

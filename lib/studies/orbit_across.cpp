@@ -26,8 +26,8 @@ constexpr double neutral = 1e-6;    ///< a modulus this near to 1 is on neither 
 constexpr double real_part = 1e-6;  ///< an imaginary part below this part of the modulus is none
 constexpr double farthest = 0.3;    ///< of two orbits [b_c, b_c per tau]: beyond, they need not be one
 
-constexpr double least_step = 1.0 / 64.0;  ///< of the way between the two values
-constexpr int orbits_max = 24;             ///< that are sought on the way
+constexpr double least_step = 1.0 / 64.0;  ///< of the distance of the two values
+constexpr int orbits_max = 24;             ///< that are sought between the values
 constexpr double near = 0.2;               ///< of a rising multiplier from + 1
 constexpr double very_near = 0.05;         ///< of one that was none such before
 
@@ -54,7 +54,7 @@ struct Found {
 
 /// Does the multiplier near + 1, with 1 - mu about the square root of the distance from the place at which the orbit is
 /// lost?
-/// @param lost  the first part of the way at which no orbit was found
+/// @param lost  the first part of the distance at which no orbit was found
 bool nears_fold(const Found& before, const Found& last, double lost) {
   if (kind_of(last.multiplier) != 1) return false;
   const double distance = 1.0 - last.multiplier.real();
