@@ -20,6 +20,7 @@
 #include "rates.hpp"
 #include "reports/gear_output.hpp"
 #include "reports/gear_report.hpp"
+#include "studies/cost_estimate.hpp"
 
 namespace epicyclic::binding {
 
@@ -63,6 +64,16 @@ class Input {
   [[nodiscard]] std::string kind() const { return std::string(input_->study.kind()); }
   [[nodiscard]] bool has_dynamics() const { return input_->study.has_dynamics(); }
   [[nodiscard]] std::vector<std::string> warnings() const { return input::warnings(*input_); }
+
+  /// What a study that is computed point by point has to compute; nothing of another one.
+  [[nodiscard]] py::dict points() const {
+    py::dict numbers;
+    if (!input_->study.has_dynamics() || !input_->study.has_points()) return numbers;
+    const studies::SweepPlan plan = input::plan_of(input_->study);
+    numbers["points"] = plan.points.size();
+    numbers["mesh_periods"] = studies::mesh_periods_of(plan, input_->study.recording());
+    return numbers;
+  }
 
   [[nodiscard]] py::dict gear() const {
     reports::require_finite_numbers(*input_);
@@ -128,6 +139,7 @@ void add_inputs(py::module_& module) {
       .def_property_readonly("kind", &Input::kind)
       .def_property_readonly("has_dynamics", &Input::has_dynamics)
       .def("warnings", &Input::warnings)
+      .def("points", &Input::points)
       .def("gear", &Input::gear)
       .def("right_hand_side", &Input::rates);
 

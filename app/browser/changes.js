@@ -29,6 +29,8 @@ function multipliersOf(study) {
       oneKind: get('one_kind') === 1,
       here: [get('here_real'), get('here_imaginary')],
       there: [get('there_real'), get('there_imaginary')],
+      thereAt: get('there_value'),
+      fold: get('fold') === 1,
     });
   }
   return known;
@@ -61,7 +63,12 @@ function typeOf(change, diagram, known) {
   });
   if (between.length > 0)
     return between.map(({ kind, branch }) => `${specialName(kind)[1]}, branch ${branch}`).join('; ');
-  if (!known || !known.found) return 'not known';
+  if (!known) return 'not known: the orbit is too long for this page, or Newton’s method does not find it';
+  if (known.fold) return 'fold (jump)';
+  if (!known.found) {
+    const end = number(known.thereAt, 6);
+    return `not known: the orbit is lost near ${end} without a multiplier that nears +1, as at a grazing of a contact`;
+  }
   if (known.unstable === 0) return 'none: the orbit stays stable';
   if (!known.oneKind) return 'several multipliers';
   if (!isReal(known.there)) return 'Neimark-Sacker (torus)';
@@ -89,9 +96,8 @@ export function changesTable(diagram) {
     const point = line.table.numbers('point');
     const known = multipliers.get(line.study).get([point[before], point[behind]].sort((a, b) => a - b).join());
     const bracket = `${number(value[before], 8)} to ${number(value[behind], 8)}`;
-    const of =
-      known && [before, behind].find((row) => (known.found && known.unstable > 0) !== (point[row] === known.point));
-    const shown = known && (known.found && known.unstable > 0 ? known.there : known.here);
+    const isThere = known && (known.fold || !known.found || known.unstable > 0);
+    const own = known && [before, behind].find((row) => point[row] === known.point);
     return [
       link(bracket, `Select the point before the change of ${symbol} from ${bracket}`, () =>
         diagram.select({ line, row: before }),
@@ -100,7 +106,9 @@ export function changesTable(diagram) {
       regime(line, before),
       regime(line, behind),
       isBeside(change) ? typeOf(change, diagram, known) : '',
-      known ? `${multiplierText(shown)} at ${number(value[of], 8)}` : '',
+      known
+        ? `${multiplierText(isThere ? known.there : known.here)} at ${number(isThere ? known.thereAt : value[own], 8)}`
+        : '',
     ];
   };
   const isBeside = ({ line, before, behind }) =>
@@ -142,8 +150,8 @@ export function changesTable(diagram) {
       { class: 'hint' },
       rich(
         'The values are in the order of the sweep. A periodic orbit beside the change is followed from its value to the other one. ' +
-          'Type: the multiplier μ that is beyond the unit circle there. Without one beyond it, the largest μ of the stable orbit is shown. ' +
-          'Not known: the orbit is not found at the other value, as beyond a fold or a grazing of a contact, or it is too long for this page.',
+          'Type: the multiplier μ that leaves the unit circle. If none leaves it, the largest μ of the stable orbit is shown. ' +
+          'Fold (jump): the orbit ends between the values, and its largest μ nears +1 there.',
       ),
     ),
   );
@@ -182,7 +190,7 @@ export function specialTable(diagram) {
     element('summary', { text: `Special points of the branches: ${rows.length}` }),
     element(
       'div',
-      { class: 'scroll tall', tabIndex: 0, role: 'region', 'aria-label': 'Special points' },
+      { class: 'scroll tall special', tabIndex: 0, role: 'region', 'aria-label': 'Special points' },
       tableOf(
         [diagram.parameter.symbol, 'Type', 'Branch', 'Period', 'Multipliers on the unit circle', 'Symmetry, contact'],
         rows,

@@ -17,6 +17,7 @@ const usual = {
   'loci.csv': { x: 'first', y: 'second', group: 'kind' },
   'orbits.csv': { x: 'value', y: 'multiplier_max' },
   'tolerance.csv': { x: 'rhs_evaluations', y: 'flow_error', group: 'method', logarithmic: true },
+  'crosscheck.csv': { x: 'value', y: 'orbit_distance', group: 'variant', logarithmic: true },
   'profile.csv': { x: 'value', y: 'cost', group: 'variable' },
 };
 

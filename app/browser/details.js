@@ -105,6 +105,15 @@ export function allValues(table, row) {
   return tableOf(['Quantity', 'Value', 'Meaning'], rows);
 }
 
+/// The same, made when it is opened: a point has more than a hundred columns.
+function closedValues(summary, table, row) {
+  const place = element('div', { class: 'scroll' });
+  const fill = () => place.replaceChildren(allValues(table, row));
+  const made = element('details', {}, element('summary', { text: summary }), place);
+  made.addEventListener('toggle', fill, { once: true });
+  return made;
+}
+
 /// A panel of its own, in a figure with a caption.
 export function smallFigure(caption, options) {
   const host = element('figure', { class: 'small' });
@@ -336,6 +345,29 @@ function longerHistory(study, point, place, colour, now) {
   );
 }
 
+/// Decodes, while nothing else is to do, the columns that the first chosen point of a sweep needs.
+export function decodeAhead(study) {
+  const idle = globalThis.requestIdleCallback ?? ((action) => setTimeout(action, 200));
+  const needed = [
+    [study.table('points.csv'), () => true],
+    [study.table('section'), (name) => ['delta_sp_1', 'delta_sp_1_rate'].includes(name)],
+    [study.table('histories'), (name) => ['delta_sp_1', 'delta_sp_1_rate'].includes(name)],
+    [study.table('spectra'), () => true],
+  ];
+  const columns = needed.flatMap(([table, isNeeded]) =>
+    (table?.columns ?? []).filter(({ name }) => isNeeded(name)).map(({ name }) => [table, name]),
+  );
+  const next = (deadline) => {
+    do {
+      const [table, name] = columns.shift() ?? [];
+      if (!table) return;
+      table.numbers(name);
+    } while (deadline?.timeRemaining?.() > 5);
+    idle(next);
+  };
+  idle(next);
+}
+
 export const shellWord = (text) => (/^[A-Za-z0-9_./+:=@%-]+$/.test(text) ? text : `'${text.replace(/'/g, "'\\''")}'`);
 
 /// Speeds of the point, where known.
@@ -424,15 +456,7 @@ export function pointDetails(diagram, line, row) {
     part('Command', element('h4', { text: 'To compute more at this point' })),
     element('p', { text: 'Long time histories, all forces, multipliers and exponents:' }),
     commandLine(`epicyclic run --from ${shellWord(`${study.folder}:${index}`)} -o ${shellWord(`point_${index}`)}`),
-    part(
-      'All values',
-      element(
-        'details',
-        {},
-        element('summary', { text: 'All values of this point' }),
-        element('div', { class: 'scroll' }, allValues(table, row)),
-      ),
-    ),
+    part('All values', closedValues('All values of this point', table, row)),
   );
   return made;
 }
@@ -474,17 +498,7 @@ export function orbitDetails(diagram, line, row) {
     made.append(element('p', { class: 'hint', text: 'The orbit is unstable: errors grow along this history.' }));
   const meshes = meshTables(table, row);
   if (meshes) made.append(part('Meshes', meshes));
-  made.append(
-    part(
-      'All values',
-      element(
-        'details',
-        {},
-        element('summary', { text: 'All values of this orbit' }),
-        element('div', { class: 'scroll' }, allValues(table, row)),
-      ),
-    ),
-  );
+  made.append(part('All values', closedValues('All values of this orbit', table, row)));
   return made;
 }
 
@@ -645,9 +659,7 @@ function torusNote(table, row) {
   return element(
     'p',
     { class: 'hint torus' },
-    rich(
-      'On a torus λ_1 is 0, but a finite average approaches it slowly, so that its 95 % interval may exclude 0 ',
-    ),
+    rich('On a torus λ_1 is 0, but a finite average approaches it slowly, so that its 95 % interval may exclude 0 '),
     '(docs/reference/regimes.md).',
   );
 }
@@ -672,7 +684,6 @@ function factsOf(table, row) {
 export function rowDetails(table, row, title, lead) {
   const facts = factsOf(table, row);
   const meshes = meshTables(table, row);
-  const all = element('div', { class: 'scroll' }, allValues(table, row));
   return element(
     'div',
     {},
@@ -681,6 +692,6 @@ export function rowDetails(table, row, title, lead) {
     facts.length > 0 ? tableOf(null, facts) : null,
     torusNote(table, row),
     meshes,
-    meshes ? element('details', {}, element('summary', { text: 'All values' }), all) : all,
+    meshes ? closedValues('All values', table, row) : element('div', { class: 'scroll' }, allValues(table, row)),
   );
 }

@@ -309,9 +309,26 @@ export class Diagram {
     return theme().series[this.seriesOf(line)];
   }
 
-  draw(context, place) {
-    const factor = this.factor();
+  /// The points and the lines that join them. They are the same until something else than the choice changes.
+  dots(place, factor) {
+    const { left, top, width, height, xRange, yRange, logarithmic } = place;
     const palette = [...theme().classes, ...theme().series];
+    const shown = this.lines.map((line) => line.shown);
+    const names = [this.axis.name, this.quantity?.name, this.bySection, this.colourBy];
+    const state = JSON.stringify([
+      left,
+      top,
+      width,
+      height,
+      xRange,
+      yRange,
+      logarithmic,
+      factor,
+      names,
+      palette,
+      shown,
+    ]);
+    if (this.made?.state === state) return this.made;
     const raster = new Raster(place);
     const joined = [];
     for (const line of this.lines) {
@@ -340,12 +357,20 @@ export class Diagram {
           if (line.classes[row] !== -1) raster.add(xs[row], factor * values[row], colourOf(row));
       }
     }
+    raster.render(palette);
+    this.made = { state, raster, joined };
+    return this.made;
+  }
+
+  draw(context, place) {
+    const factor = this.factor();
+    const { raster, joined } = this.dots(place, factor);
     for (const [xs, ys, line] of joined)
       strokeLine(context, place, xs, ys, {
         colour: this.colourBy === 'regime' ? theme().faint : this.colour(line, 0),
         width: 0.8,
       });
-    raster.paint(context, palette);
+    raster.paint(context);
     if (!this.bySection && this.quantity && raster.drawn < 800)
       this.drawBars(context, place, this.quantity.name, factor);
     for (const line of this.lines)
@@ -483,7 +508,8 @@ export class Diagram {
         if (line.classes?.[row] !== -1)
           raster.add(xs[row], values[row], line.classes && this.colourBy === 'regime' ? line.classes[row] : own);
     }
-    raster.paint(context, palette);
+    raster.render(palette);
+    raster.paint(context);
     this.drawChosen(context, place, (line, row) => (this.curve(line, name) ? [this.curve(line, name)[row]] : []));
   }
 

@@ -4,7 +4,7 @@ import { capital, element, lengthUnit, number, rich, tableOf, unitText } from '.
 import { Diagram } from './diagram.js';
 import { Plane } from './plane.js';
 import { Run, titleOfTable } from './run.js';
-import { commandLine } from './details.js';
+import { commandLine, decodeAhead } from './details.js';
 import { chartOf, hasUsualChart } from './chart.js';
 import { Live } from './live.js';
 import { hasModes, modesFigure } from './modes.js';
@@ -58,10 +58,12 @@ function figuresOf(group, host, memory) {
   };
   const drawn = kinds[study.kind] && group.some((one) => one.table(needed[one.kind])?.rows > 0);
   const figure = drawn ? kinds[study.kind]() : null;
+  // Of a sweep the cross-check of some points is a table.
+  const isDrawn = (table) => hasUsualChart(table) && !(drawn && table.name === 'crosscheck.csv');
   const charts = group
     .flatMap((one) => {
       const labels = { value: one.parameter.label, first: one.parameter.label, second: one.second_parameter?.label };
-      return one.tables.filter(hasUsualChart).map((table) => chartOf(table, `${titleOfTable(table)}.`, labels));
+      return one.tables.filter(isDrawn).map((table) => chartOf(table, `${titleOfTable(table)}.`, labels));
     })
     .filter(Boolean);
   charts.unshift(...group.filter(hasModes).map(modesFigure));
@@ -272,6 +274,7 @@ async function show() {
       page.append(part);
       figuresOf(group, host);
     }
+    for (const study of header.studies) if (study.kind === 'sweep') decodeAhead(study);
     document.body.dataset.state = 'ready';
   } catch (error) {
     page.replaceChildren(

@@ -1,7 +1,7 @@
 // A panel: axes by uPlot, everything between them drawn by its owner; zoom, pan, hover, click.
 /* global uPlot */
 import { theme, onTheme, rgb } from './theme.js';
-import { element, number } from './words.js';
+import { element, number, superscript } from './words.js';
 
 const finite = (range) => range && Number.isFinite(range[0]) && Number.isFinite(range[1]) && range[0] < range[1];
 
@@ -19,6 +19,12 @@ function isLabelled(value, [low, high]) {
   if (high < 2 * low) return true;
   if (high < 10 * low) return Number.isInteger(mantissa);
   return mantissa === 1 || (high < 1000 * low && (mantissa === 2 || mantissa === 5));
+}
+
+/// A tick of a logarithmic axis: 10⁻⁵, but 0.01.
+function powerText(value) {
+  const [mantissa, exponent] = value.toExponential(6).split('e').map(Number);
+  return mantissa === 1 && Math.abs(exponent) > 2 ? `10${superscript(exponent)}` : number(value, 4);
 }
 
 /// Values of a logarithmic axis with a tick: whole multiples of powers of ten. (Those of uPlot never end for some ranges
@@ -135,7 +141,7 @@ export class Panel {
         const { min, max } = plot.scales.y;
         const none = (value) =>
           value === null || value === undefined || (logarithmic && !isLabelled(value, [min, max]));
-        return splits.map((value) => (none(value) ? '' : number(value, logarithmic ? 4 : 12)));
+        return splits.map((value) => (none(value) ? '' : logarithmic ? powerText(value) : number(value, 12)));
       },
       ...(logarithmic ? { splits: (_plot, _axis, low, high) => logarithmicSplits(low, high) } : {}),
       grid: { stroke: colours.grid, width: 1 },
@@ -412,8 +418,9 @@ export class Raster {
     ++this.drawn;
   }
 
+  /// Makes the image of what was added.
   /// @param colours  "#rrggbb" of each
-  paint(context, colours) {
+  render(colours) {
     let places = 0;
     for (const n of this.count) if (n > 0) ++places;
     const size = Math.max(1, Math.round((places < 4000 ? 2.6 : 1.6) * this.place.ratio));
@@ -437,9 +444,13 @@ export class Raster {
           image.data[byte + 3] = alpha;
         }
     }
-    const canvas = new OffscreenCanvas(width, height);
-    canvas.getContext('2d').putImageData(image, 0, 0);
-    context.drawImage(canvas, Math.round(this.place.left), Math.round(this.place.top));
+    this.canvas = new OffscreenCanvas(width, height);
+    this.canvas.getContext('2d').putImageData(image, 0, 0);
+    this.count = this.of = null;
+  }
+
+  paint(context) {
+    context.drawImage(this.canvas, Math.round(this.place.left), Math.round(this.place.top));
   }
 }
 

@@ -1,7 +1,7 @@
 // One operating point: histories, phase portrait, section, spectra, exponents and multipliers from its tables.
 import { Panel, View, dot, strokeLine } from './panel.js';
 import { theme } from './theme.js';
-import { capital, element, factorOf, lengthUnit, number, symbol, unitText } from './words.js';
+import { axisLabel, capital, element, factorOf, lengthUnit, number, symbol, unitText } from './words.js';
 import { extent, multipliersFigure, rowDetails, sectionFigure, smallFigure } from './details.js';
 
 const label = (column) =>
@@ -154,9 +154,17 @@ export class Run {
       'Amplitude spectrum, zero to peak.',
       {
         xLabel: () => 'Frequency over the mesh frequency',
-        yLabel: () => `${shown}${unitText(lines.unit) ? `  [${unitText(lines.unit)}]` : ''}`,
+        yLabel: () => axisLabel({ name: shown, unit: lines.unit }),
         logarithmic: () => true,
         xRange: () => extent(frequency, 0.01),
+        hover: ({ left, xAt }) => {
+          const at = xAt(left);
+          let best = lines.rows[0];
+          for (const row of lines.rows) if (Math.abs(frequency[row] - at) < Math.abs(frequency[best] - at)) best = row;
+          if (best === undefined) return null;
+          const value = `${number(factorOf(lines.unit) * amplitude[best], 4)} ${unitText(lines.unit)}`;
+          return { text: `frequency ${number(frequency[best], 6)} ω_m\namplitude ${value}` };
+        },
         range: () => {
           const factor = factorOf(lines.unit);
           let [low, high] = [Infinity, 0];

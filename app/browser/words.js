@@ -83,11 +83,43 @@ export function symbol(name) {
   return `${letter}${letter.includes('_') ? ',' : '_'}${found[2]}${planet && `,${planet}`}`;
 }
 
+const unitsOfNames = {
+  N_per_m: 'N/m',
+  m_per_s: 'm/s',
+  um: 'µm',
+  mm: 'mm',
+  m: 'm',
+  N: 'N',
+  Nm: 'N m',
+  Hz: 'Hz',
+  rpm: 'rpm',
+  s: 's',
+  GPa: 'GPa',
+  rad: 'rad',
+  deg: '°',
+};
+
+const wordsOfNames = {
+  mu: 'Friction coefficient µ',
+  rhs_evaluations: 'Evaluations of the right-hand side',
+  k_sp_N_per_m: 'Mesh stiffness k_sp',
+  k_rp_N_per_m: 'Mesh stiffness k_rp',
+};
+
+/// "Approach [µm]" of approach_um: the name of a column without a meaning, which may end in its unit.
+function spokenName(name) {
+  const unit = Object.keys(unitsOfNames).find((end) => name.endsWith(`_${end}`));
+  const words = wordsOfNames[name];
+  const begin = unit ? name.slice(0, -unit.length - 1) : name;
+  return `${words ?? capital(begin.replace(/_/g, ' '))}${unit ? `  [${unitsOfNames[unit]}]` : ''}`;
+}
+
 /// The label of an axis: "RMS of δ_sp,1 [µm]".
 export function axisLabel(column) {
   const unit = unitText(column.unit);
-  const meaning = capital(column.meaning) || column.name;
-  const words = symbol(column.name) || (meaning.length > 44 ? column.name : meaning);
+  const known = symbol(column.name) || capital(column.meaning ?? '');
+  if (!known) return unit ? `${column.name}  [${unit}]` : spokenName(column.name);
+  const words = known.length > 44 ? column.name : known;
   return unit ? `${words}  [${unit}]` : words;
 }
 

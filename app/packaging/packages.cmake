@@ -61,14 +61,19 @@ Static libraries, headers and the CMake package epicyclic: models of planetary
 gear stages, and sections, regimes, periodic orbits, branches and exponents of
 any system.")
 
+# The module is of one version of Python.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3:any")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), \
+python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS
     "python3-h5py, python3-pandas, python3-xarray, python3-h5netcdf, python3-matplotlib")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "nonlinear dynamics of planetary gear trains (Python package)
-Reads the results of epicyclic: tables with units, Poincare points, figures,
+Computes studies of planetary gear stages and of one's own oscillators, and
+reads the results of epicyclic: tables with units, Poincare points, figures,
 pandas and xarray.")
 set(folder ${CMAKE_CURRENT_LIST_DIR}/python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${folder}/postinst;${folder}/prerm") # compiled modules

@@ -414,7 +414,7 @@ class StudyReport {
                  const std::vector<std::vector<std::string>>& cells) {
     const std::size_t rows = cells.empty() ? 0 : cells.front().size();
     ReportTable table(name, title_of_table(name), rows);
-    std::set<std::string> kept_exact = {"value", "second_value", "error_bound"};
+    std::set<std::string> kept_exact = {"value", "second_value", "error_bound", "frequency", "amplitude"};
     for (std::size_t k = 0; k < columns.size(); ++k) {
       stop_here_();
       std::vector<double> numbers;
@@ -572,6 +572,9 @@ class StudyReport {
       else
         all.push_back({{"name", name}, {"text", std::move(text)}});
     }
+    // The results of the study itself come first.
+    const std::string own = std::string(input_.study.kind()) + ".md";
+    std::stable_partition(all.begin(), all.end(), [&](const json& one) { return one["name"] == own; });
     if (!all.empty()) study_["summaries"] = std::move(all);
   }
 
@@ -698,11 +701,12 @@ class StudyReport {
     const bool same = identity_of(input_, input_.study.kind()) == run_["identity"].get<std::string>();
     const studies::SweepPlan plan = input::plan_of(input_.study);
     std::function<model::DynamicModel(std::size_t)> model_at;
-    if (same)
-      model_at = [&plan, at = input::model_at_point(input_)](std::size_t point) { return at(plan.points[point]); };
-    else
+    if (same) {
+      const studies::ModelAtPoint model_of = input::model_at_point(input_);
+      model_at = [&plan, model_of](std::size_t point) { return model_of(plan.points[point]); };
+      if (complete_) add_changes(model_of);
+    } else
       leave_out("Rates at the Poincaré points, and histories: another version of the numerics computed this study.");
-    if (same && complete_) add_changes(model_at);
     SweepRecords records = sweep_records(
         points_, [this](std::size_t point) { return store_->read(point); }, model_at, input_.study.integrator,
         stop_here_);
@@ -715,12 +719,12 @@ class StudyReport {
   }
 
   /// Multipliers of the periodic orbits beside changes of the regime.
-  void add_changes(const std::function<model::DynamicModel(std::size_t)>& model_at) {
+  void add_changes(const studies::ModelAtPoint& model_at) {
     std::vector<studies::PointSummary> points;
     for (const std::size_t point : points_) {
       studies::PointSummary summary = store_->read_summary(point);
       if (summary.orbit.empty() && summary.period > 0)
-        summary.orbit = studies::state_on(store_->read(point), model_at(point).dimension);
+        summary.orbit = studies::state_on(store_->read(point), model_at(summary.point).dimension);
       points.push_back(std::move(summary));
     }
     const ChangeMultipliers changes =

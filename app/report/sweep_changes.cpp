@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -14,7 +13,6 @@ namespace epicyclic::app {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Longer orbits are left out, and those behind so many mesh periods of orbits: a page is to be written in seconds.
 constexpr int period_max = 16;
 constexpr int periods_max = 160;
@@ -32,14 +30,21 @@ std::optional<Neighbours> with_orbit(const studies::PointSummary* before, const 
   return is_second ? Neighbours{behind, before} : Neighbours{before, behind};
 }
 
-std::optional<studies::OrbitAcross> follow(const Neighbours& pair,
-                                           const std::function<model::DynamicModel(std::size_t)>& model_at,
+double value_at(const Neighbours& pair, double part) {
+  return std::lerp(pair.first->point.value, pair.second->point.value, part);
+}
+
+std::optional<studies::OrbitAcross> follow(const Neighbours& pair, const studies::ModelAtPoint& model_at,
                                            const integrate::IntegratorOptions& integrator) {
-  const auto [point, other] = pair;
+  const studies::PointSummary& point = *pair.first;
+  const auto field_at = [&](double part) -> VectorField {
+    studies::GridPoint between = part < 1.0 ? point.point : pair.second->point;
+    between.value = value_at(pair, part);
+    return model_at(between);
+  };
   try {
-    const model::DynamicModel here = model_at(point->point.index);
-    return studies::orbit_across(here, model_at(other->point.index), std::span(point->orbit).first(here.dimension),
-                                 point->period, integrator);
+    return studies::orbit_across(field_at, std::span(point.orbit).first(model_at(point.point).dimension), point.period,
+                                 integrator);
   } catch (const SolverError&) {
     return std::nullopt;  // the change is listed without it
   }
@@ -56,7 +61,7 @@ bool same_change(const Neighbours& known, const Neighbours& of) {
 }  // namespace
 
 ChangeMultipliers change_multipliers(std::span<const studies::PointSummary> points,
-                                     const std::function<model::DynamicModel(std::size_t)>& model_at,
+                                     const studies::ModelAtPoint& model_at,
                                      const integrate::IntegratorOptions& integrator,
                                      const std::function<void()>& stop_here, int threads) {
   ChangeMultipliers changes;
@@ -98,16 +103,17 @@ ChangeMultipliers change_multipliers(std::span<const studies::PointSummary> poin
   for (const auto& [pair, orbit] : rows) {
     const auto& across = orbits[orbit];
     if (!across) continue;
-    const bool found = across->found;
     const std::array<double, ChangeMultipliers::names.size()> row = {static_cast<double>(pair.first->point.index),
                                                                      static_cast<double>(pair.second->point.index),
                                                                      across->here.real(),
                                                                      across->here.imag(),
-                                                                     found ? 1.0 : 0.0,
-                                                                     found ? across->unstable : nan,
+                                                                     across->found ? 1.0 : 0.0,
+                                                                     static_cast<double>(across->unstable),
                                                                      across->one_kind ? 1.0 : 0.0,
-                                                                     found ? across->there.real() : nan,
-                                                                     found ? across->there.imag() : nan};
+                                                                     across->there.real(),
+                                                                     across->there.imag(),
+                                                                     value_at(pair, across->part),
+                                                                     across->fold ? 1.0 : 0.0};
     for (std::size_t i = 0; i < row.size(); ++i) changes.columns[i].push_back(row[i]);
   }
   return changes;

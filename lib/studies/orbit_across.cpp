@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <memory>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -23,7 +24,12 @@ constexpr double residual = 1e-7;            // [b_c, b_c per tau]
 
 constexpr double neutral = 1e-6;    ///< a modulus this near to 1 is on neither side
 constexpr double real_part = 1e-6;  ///< an imaginary part below this part of the modulus is none
-constexpr double farthest = 0.3;    ///< of the two orbits [b_c, b_c per tau]: beyond, they need not be one
+constexpr double farthest = 0.3;    ///< of two orbits [b_c, b_c per tau]: beyond, they need not be one
+
+constexpr double least_step = 1.0 / 64.0;  ///< of the distance of the two values
+constexpr int orbits_max = 24;             ///< that are sought between the values
+constexpr double near = 0.2;               ///< of a rising multiplier from + 1
+constexpr double very_near = 0.05;         ///< of one that was none such before
 
 /// The one of largest modulus first; of a pair the one above the real axis.
 std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& monodromy) {
@@ -40,33 +46,70 @@ int kind_of(const std::complex<double>& multiplier) {
   return multiplier.real() < 0.0 ? -1 : 1;
 }
 
+/// A multiplier where the orbit was found.
+struct Found {
+  double part = 0;
+  std::complex<double> multiplier;
+};
+
+/// Does the multiplier near + 1, with 1 - mu about the square root of the distance from the place at which the orbit is
+/// lost?
+/// @param lost  the first part of the distance at which no orbit was found
+bool nears_fold(const Found& before, const Found& last, double lost) {
+  if (kind_of(last.multiplier) != 1) return false;
+  const double distance = 1.0 - last.multiplier.real();
+  if (kind_of(before.multiplier) != 1) return distance < very_near;
+  const double distance_before = 1.0 - before.multiplier.real();
+  if (!(distance < near && distance < distance_before)) return false;
+  const double fall = (distance_before * distance_before - distance * distance) / (last.part - before.part);
+  return last.part + distance * distance / fall <= lost + (lost - last.part);
+}
+
 }  // namespace
 
-std::optional<OrbitAcross> orbit_across(const VectorField& here, const VectorField& there,
-                                        std::span<const double> orbit, int n,
+std::optional<OrbitAcross> orbit_across(const FieldFamily& field_at, std::span<const double> orbit, int n,
                                         const integrate::IntegratorOptions& integrator) {
   integrate::IntegratorOptions options = integrator;
   options.tangent_error_control = true;
   options.relative_tolerance = std::max(options.relative_tolerance, relative_tolerance);
   options.absolute_tolerance = std::max(options.absolute_tolerance, absolute_tolerance);
   const analysis::OrbitOptions newton{.iterations = 6, .residual = residual};
-  const auto first_flow = make_flow_of_one_trajectory(here, options);
-  const analysis::PeriodicOrbit first = analysis::find_periodic_orbit(*first_flow, orbit, n, newton);
-  if (!first.found()) return std::nullopt;
+  const auto orbit_at = [&](double part, std::span<const double> start) {
+    const auto flow = make_flow_of_one_trajectory(field_at(part), options);
+    return analysis::find_periodic_orbit(*flow, start, n, newton);
+  };
+  analysis::PeriodicOrbit last = orbit_at(0.0, orbit);
+  if (!last.found()) return std::nullopt;
   OrbitAcross across;
-  across.here = multipliers_of(first.monodromy).front();
-  const auto second_flow = make_flow_of_one_trajectory(there, options);
-  const analysis::PeriodicOrbit second = analysis::find_periodic_orbit(*second_flow, first.state, n, newton);
-  if (!second.found() || largest_difference(first.state, second.state) > farthest) return across;
-  const auto multipliers = multipliers_of(second.monodromy);
-  across.found = true;
-  across.there = multipliers.front();
-  across.one_kind = true;
-  for (const auto& multiplier : multipliers)
-    if (std::abs(multiplier) > 1.0 + neutral) {
-      ++across.unstable;
-      across.one_kind = across.one_kind && kind_of(multiplier) == kind_of(multipliers.front());
+  across.here = across.there = multipliers_of(last.monodromy).front();
+  Found before{0.0, across.here};
+  double lost = std::numeric_limits<double>::infinity();
+  double step = 1.0;
+  for (int k = 0; k < orbits_max && step >= least_step; ++k) {
+    const double part = std::min(across.part + step, 1.0);
+    analysis::PeriodicOrbit next = orbit_at(part, last.state);
+    const bool is_near = next.found() && largest_difference(last.state, next.state) <= farthest;
+    if (!is_near) {
+      if (!next.found()) lost = part;
+      step *= 0.5;
+      continue;
     }
+    last = std::move(next);
+    before = {across.part, across.there};
+    const auto multipliers = multipliers_of(last.monodromy);
+    across.there = multipliers.front();
+    across.part = part;
+    across.one_kind = true;
+    for (const auto& multiplier : multipliers)
+      if (std::abs(multiplier) > 1.0 + neutral) {
+        ++across.unstable;
+        across.one_kind = across.one_kind && kind_of(multiplier) == kind_of(multipliers.front());
+      }
+    across.found = part == 1.0 || across.unstable > 0;
+    if (across.found) return across;
+    if (part + step >= lost) step *= 0.5;
+  }
+  across.fold = std::isfinite(lost) && nears_fold(before, {across.part, across.there}, lost);
   return across;
 }
 

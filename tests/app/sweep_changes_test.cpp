@@ -21,9 +21,9 @@ using studies::Direction;
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-/// x'' + c x' + x / 10 = 0 with c = (index - 1.5) / 10: a torus bifurcation between the points 1 and 2.
-model::DynamicModel oscillator(std::size_t index) {
-  const double c = 0.1 * (static_cast<double>(index % 4) - 1.5);
+/// x'' + c x' + x / 10 = 0 with c = (value - 1.5) / 10: a torus bifurcation between the points 1 and 2.
+model::DynamicModel oscillator(const studies::GridPoint& p) {
+  const double c = 0.1 * (p.value - 1.5);
   model::DynamicModel m;
   static_cast<VectorField&>(m) = integrate::make_field(2, two_pi, [c](std::size_t, double, const auto* y, auto* d) {
     d[0] = y[1];
@@ -61,6 +61,8 @@ TEST(SweepChanges, OrbitBesideTheChangeIsFollowed) {
   EXPECT_EQ(column(changes, "point"), Numbers{1});
   EXPECT_EQ(column(changes, "other"), Numbers{2});
   EXPECT_EQ(column(changes, "unstable"), Numbers{2});
+  EXPECT_EQ(column(changes, "there_value"), Numbers{2});
+  EXPECT_EQ(column(changes, "fold"), Numbers{0});
   const double real = column(changes, "there_real").front();
   const double imaginary = column(changes, "there_imaginary").front();
   EXPECT_NEAR(std::hypot(real, imaginary), std::exp(0.05 * std::numbers::pi), 1e-5);

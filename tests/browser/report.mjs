@@ -321,6 +321,18 @@ await checks.run(browser, async () => {
     for (const word of ['Time history', 'Phase portrait', 'Poincaré section', 'The operating point'])
       expect(text.includes(word), `run.html: no ${word}`);
     expect((await page.value("document.querySelectorAll('.panel').length")) >= 3, 'panels of the run');
+    // Small amplitudes of a long table are kept.
+    await page.value(
+      "[...document.querySelectorAll('figure')].find((one) => one.textContent.includes('Amplitude spectrum')).id = 'spectrum'",
+    );
+    const [at, top, width, height] = await page.value(
+      "(() => { const over = document.querySelector('#spectrum .u-over'); over.scrollIntoView(); const box = over.getBoundingClientRect(); return [box.left, box.top, box.width, box.height]; })()",
+    );
+    await page.mouse('mouseMoved', at + 0.95 * width, top + 0.5 * height);
+    await page.frame();
+    const line = await page.value("document.querySelector('#spectrum .tip').textContent");
+    const [, order, size] = /^frequency ([0-9.]+) ω_m\namplitude ([0-9.]+·10⁻\S+) µm/.exec(line) ?? [];
+    expect(order > 18 && size !== undefined, `the spectrum at its end: ${line}`);
     clean(page, 'run.html');
   }
   {

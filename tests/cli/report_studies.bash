@@ -27,7 +27,7 @@ make_studies() {
   study basins "$inputs/tang2020_basins.json" -o basins --set /study/first/points=3 --set /study/second/points=3
   study gear "$inputs/tang2020.json" -o gear
   study run "$inputs/tang2020_run.json" -o run --set /study/transient=fixed "${few[@]}" --set /study/exponent_periods=0 \
-    --set /study/spectrum_periods=16 --set /study/history_periods=2
+    --set /study/spectrum_periods=64 --set /study/history_periods=2
   study continue "$inputs/tang2020_branches_fixed_ring.json" -o branches --set /study/from=2.1 --set /study/to=2.3 --set '/study/starts=[2.25]' \
     --set /study/largest_period=1 --set /study/tolerance=1e-8 --set /study/branch_points=false
 }

@@ -44,6 +44,8 @@ apt-get -q install -y "$folder"/*.deb >/tmp/apt.log 2>&1 || { cat /tmp/apt.log &
 echo "all packages after $(since) s"
 python3 -c 'import epicyclic as ep; r = ep.open("out/tang2020_calibrated_speed"); print(r); assert len(r.points) == 1322' ||
   fail "Python"
+python3 -c 'import epicyclic as ep; p = ep.Stage.load("/usr/share/epicyclic/inputs/tang2020_speed.json").point(value=2.16)
+assert (p["regime"], p["period"]) == ("periodic", 1), p' || fail "computing in Python"
 for page in epicyclic epicyclic-sweep epicyclic-mpi; do
   [ "$(man -P cat $page 2>/dev/null | wc -l)" -gt 20 ] || fail "man $page"
 done

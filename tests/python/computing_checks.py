@@ -126,6 +126,23 @@ class Studies(Folders):
             with self.assertRaises(ep.ResultError):
                 result.run_at(wrong)
 
+    def test_check_computes_nothing(self):
+        few = {k: v for k, v in FEW.items() if k != "crosscheck"}
+        found = stage().check("sweep", points=4, transient="fixed", **few)
+        self.assertEqual((found["problems"], found["points"], found["mesh_periods"]), ([], 8, 80))
+        self.assertEqual(stage().check(), stage().check("sweep"))
+        self.assertEqual(stage("tang2020.json").check()["problems"], [])
+        problem = stage("tang2020_map.json").check("sweep", poitns=4)["problems"][0]
+        self.assertEqual((problem.file, problem.pointer, problem.suggestion), ("", "/study/poitns", "points"))
+        drawn = ep.Stage.from_drawing(teeth=(24, 30), module_mm=2.5, width_mm=30, torque_Nm=60)
+        self.assertRegex(drawn.check()["warnings"][0], "^/stage/.*the estimate decides the regime")
+        self.assertNotIn("points", stage("tang2020_branches.json").check())
+        with self.assertRaises(TypeError):
+            stage("tang2020.json").check(points=4)
+        self.assertTrue(stage().check("swep")["problems"])
+        with self.assertRaises(TypeError):
+            stage().check([[3]])
+
     def test_gear(self):
         found = stage("tang2020.json").gear()
         self.assertGreater(len(found["quantities"]), 20)

@@ -171,6 +171,10 @@ def study():
     return pick.choice(STAGES).study(mostly("sweep"), **names(3))
 
 
+def check():
+    return pick.choice(STAGES).check(mostly("sweep"), **names(3))
+
+
 def wrong_study():
     if pick.random() < 0.1:
         return refused(STAGES[1].part, mostly("sweep"), mostly(1), mostly(2), out=mostly(folder / "part"))
@@ -310,7 +314,7 @@ def raw():
 
 #: Functions that make one call, and how often they are chosen.
 TARGETS = {
-    load: 12, drawing: 8, replace: 12, gear: 4, study: 8, wrong_study: 8, point: 0.3, closed_stream: 0.1, rates: 14, make_system: 10,
+    load: 12, drawing: 8, replace: 12, gear: 4, study: 8, check: 6, wrong_study: 8, point: 0.3, closed_stream: 0.1, rates: 14, make_system: 10,
     analyse: 8, results: 8, raw: 8,
 }  # fmt: skip
 

@@ -335,10 +335,41 @@ class Figures(unittest.TestCase):
         _, axes = plt.subplots()
         self.assertIs(self.draw(sweep, ax=axes), axes)
 
+    def test_several_results_in_the_same_axes(self):
+        speed, rpm, branches = (ep.open(RESULTS / name) for name in ("speed", "rpm", "branches"))
+
+        def legend(axes):
+            return [text.get_text() for text in axes.get_legend().get_texts()]
+
+        axes = self.draw(speed, "kv_sp")
+        self.assertIn("up", legend(axes))
+        first = {line.get_color() for line in axes.lines}
+        self.draw(rpm, "kv_sp", ax=axes)
+        second = {line.get_color() for line in axes.lines} - first
+        self.assertEqual((len(first), len(second)), (2, 2))
+        self.assertTrue({"speed: up", "rpm: up"} <= set(legend(axes)), legend(axes))
+        # Two columns of one result; names of one's own; axes that were cleared.
+        axes = self.draw(speed, "kv_sp", direction="up")
+        self.draw(speed, "kv_rp", ax=axes, direction="up")
+        self.assertTrue({"kv_sp: up", "kv_rp: up"} <= set(legend(axes)), legend(axes))
+        self.assertEqual(axes.get_ylabel(), "kv_sp, kv_rp")
+        axes.clear()
+        self.draw(speed, "kv_sp", ax=axes, direction="up", label="60 N m")
+        self.assertIn("60 N m: up", legend(axes))
+        # The curves of branches have other colours than the points of the sweep; special points keep theirs.
+        axes = self.draw(speed, direction="up")
+        colours = {line.get_color() for line in axes.lines}
+        self.draw(branches, ax=axes)
+        self.assertTrue(colours.isdisjoint(line.get_color() for line in axes.lines if line.get_linestyle() != "None"))
+        with self.assertRaisesRegex(TypeError, "label"):
+            speed.plot(label=3)
+
     def test_what_cannot_be_drawn_is_refused(self):
         for name in KINDS:
             with self.subTest(name), self.assertRaisesRegex(ep.ResultError, "no column no_such"):
                 ep.open(RESULTS / name).plot("no_such")
+        with self.assertRaisesRegex(ep.ResultError, "did you mean .*force_sp_max"):
+            ep.open(RESULTS / "speed").plot("force_sp_maximum")
         with self.assertRaisesRegex(ep.ResultError, "has texts"):
             ep.open(RESULTS / "speed").plot("status")
         with self.assertRaisesRegex(ep.ResultError, "no direction"):

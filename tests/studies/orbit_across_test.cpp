@@ -30,11 +30,15 @@ VectorField saddle_node(double p) {
   return integrate::make_field(1, two_pi, [=](std::size_t, double, const auto* y, auto* d) { d[0] = p - y[0] * y[0]; });
 }
 
-std::optional<OrbitAcross> across(const VectorField& here, const VectorField& there, std::vector<double> start) {
+std::optional<OrbitAcross> follow(const FieldFamily& field_at, std::vector<double> start) {
   integrate::IntegratorOptions options;
   options.relative_tolerance = 1e-9;
   options.absolute_tolerance = 1e-11;
-  return orbit_across(here, there, start, 1, options);
+  return orbit_across(field_at, start, 1, options);
+}
+
+std::optional<OrbitAcross> across(const VectorField& here, const VectorField& there, std::vector<double> start) {
+  return follow([&](double part) { return part < 1.0 ? here : there; }, std::move(start));
 }
 
 TEST(OrbitAcross, PairLeavesAtATorusBifurcation) {
@@ -71,12 +75,38 @@ TEST(OrbitAcross, ProductOfMultipliersIsThatOfLiouville) {
 }
 
 TEST(OrbitAcross, NoOrbitBeyondAFold) {
-  const auto result = across(saddle_node(0.01), saddle_node(-0.01), {0.1});
+  // The largest multiplier is exp(-4 pi sqrt(p)).
+  const auto result = follow([](double part) { return saddle_node(0.01 - 0.018 * part); }, {0.1});
   ASSERT_TRUE(result);
   EXPECT_NEAR(result->here.real(), std::exp(-0.2 * two_pi), error);
   EXPECT_FALSE(result->found);
+  EXPECT_TRUE(result->fold);
+  EXPECT_GT(result->part, 0.5);
+  EXPECT_LE(result->part, 0.01 / 0.018);
+  EXPECT_NEAR(result->there.real(), std::exp(-2.0 * two_pi * std::sqrt(0.01 - 0.018 * result->part)), 1e-3);
   // Nor is one found from a state that is on none.
   EXPECT_FALSE(across(saddle_node(-0.01), saddle_node(0.01), {0.1}));
+}
+
+TEST(OrbitAcross, OrbitThatIsLostWithoutAMultiplierNearOneIsNoFold) {
+  const auto result = across(saddle_node(0.01), saddle_node(-0.01), {0.1});
+  ASSERT_TRUE(result);
+  EXPECT_FALSE(result->found);
+  EXPECT_FALSE(result->fold);
+  EXPECT_NEAR(result->there.real(), std::exp(-0.2 * two_pi), error);
+}
+
+TEST(OrbitAcross, ShorterStepsFollowAnOrbitThatMovesFar) {
+  // y' = (part - y) / 10: the orbit y = part moves farther than one step may.
+  const auto field = [](double part) {
+    return integrate::make_field(1, two_pi,
+                                 [part](std::size_t, double, const auto* y, auto* d) { d[0] = 0.1 * (part - y[0]); });
+  };
+  const auto result = follow(field, {0.0});
+  ASSERT_TRUE(result && result->found);
+  EXPECT_EQ(result->part, 1.0);
+  EXPECT_EQ(result->unstable, 0);
+  EXPECT_NEAR(result->there.real(), std::exp(-0.1 * two_pi), error);
 }
 
 }  // namespace

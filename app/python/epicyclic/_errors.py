@@ -127,5 +127,5 @@ def core() -> Any:
     except ModuleNotFoundError as error:
         raise ImportError(
             "computing needs the module epicyclic._core, which a build with -D EPICYCLIC_PYTHON=ON makes "
-            "(Debian: pybind11-dev, python3-dev); without it the package reads results"
+            "(Debian: pybind11-dev, python3-dev); the package python3-epicyclic has it; without it results can be read"
         ) from error

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Optional, Tuple
+import difflib
+import weakref
+from pathlib import Path
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
@@ -43,7 +46,21 @@ _SPECIAL: Dict[str, Tuple[str, str, str]] = {
 }
 
 
-def plot(result: Result, quantity: Optional[str], ax: Optional[Any], direction: Optional[str]) -> Any:
+class _Drawn(NamedTuple):
+    """What one call has drawn into axes: its name in the legend, and artists with their own labels."""
+
+    folder: Path
+    name: Optional[str]
+    quantity: Optional[str]
+    labels: List[Tuple[Any, str]]
+
+
+_drawn: "weakref.WeakKeyDictionary[Any, List[_Drawn]]" = weakref.WeakKeyDictionary()
+
+
+def plot(
+    result: Result, quantity: Optional[str], ax: Optional[Any], direction: Optional[str], name: Optional[str] = None
+) -> Any:
     """Draw a quantity of a result; see ``Result.plot``."""
     def drawing(axes: Any) -> None:
         if isinstance(result, Sweep):
@@ -68,9 +85,43 @@ def plot(result: Result, quantity: Optional[str], ax: Optional[Any], direction: 
         _, ax = pyplot.subplots(figsize=(7.5, 5.0), layout="constrained")
     if not hasattr(ax, "plot"):
         raise TypeError(f"ax is {type(ax).__name__}, must be Axes of matplotlib")
+    if name is not None and not isinstance(name, str):
+        raise TypeError(f"label is {word_of(name)}, must be a text")
+    before, label = set(ax.lines), ax.get_ylabel() if _drawn.get(ax) else ""
     drawing(ax)
+    if label and ax.get_ylabel() not in label.split(", "):
+        ax.set_ylabel(f"{label}, {ax.get_ylabel()}")
+    if not isinstance(result, Map):
+        _distinguish(ax, [line for line in ax.lines if line not in before], result, name, quantity)
+        if not isinstance(result, Run) or quantity is None or name is not None or len(_drawn[ax]) > 1:
+            _legend(ax)
     _finish(result, ax)
     return ax
+
+
+def _distinguish(ax: Any, lines: List[Any], result: Result, name: Optional[str], quantity: Optional[str]) -> None:
+    """Give the lines of a result colours and labels that no other one in the axes has."""
+    special = {label for label, _, _ in _SPECIAL.values()}
+    drawn = _drawn.setdefault(ax, [])
+    drawn[:] = [one for one in drawn if any(line in ax.lines for line, _ in one.labels)]  # not what was cleared
+    if drawn:
+        step = 2 * len(drawn)
+        for line in lines:
+            if line.get_color() in _CYCLE and line.get_label() not in special:
+                line.set_color(_CYCLE[(_CYCLE.index(line.get_color()) + step) % len(_CYCLE)])
+    labels = [(line, str(line.get_label())) for line in lines if not str(line.get_label()).startswith("_")]
+    drawn.append(_Drawn(result.folder, name, quantity, labels))
+    folders = [one.folder for one in drawn]
+    for one in drawn:
+        words = one.name
+        if words is None and len(drawn) > 1:
+            alike = any(other != one.folder and other.name == one.folder.name for other in folders)
+            parts = [] if len(set(folders)) == 1 else [str(Path(*one.folder.parts[-2:])) if alike else one.folder.name]
+            if folders.count(one.folder) > 1 and one.quantity is not None:
+                parts.append(one.quantity)
+            words = ", ".join(parts) or None
+        for line, label in one.labels:
+            line.set_label(label if words is None else f"{_literal(words)}: {label}")
 
 
 # Axes
@@ -142,7 +193,9 @@ def _label_abscissa(result: Result, ax: Any) -> None:
 
 def _numbers(result: Result, table: Table, quantity: str) -> Array:
     if quantity not in table.columns:
-        raise ResultError(f"{result.folder}: no column {word_of(quantity)} to draw; there are {', '.join(table.columns)}")
+        near = difflib.get_close_matches(quantity, table.columns) if isinstance(quantity, str) else []
+        words = f"did you mean {', '.join(near)}?" if near else f"there are {', '.join(table.columns)}"
+        raise ResultError(f"{result.folder}: no column {word_of(quantity)} to draw; {words}")
     values = table.columns[quantity]
     if values.dtype.kind not in "if":
         raise ResultError(f"{result.folder}: column {word_of(quantity)} has texts, not numbers")
@@ -193,7 +246,6 @@ def _sweep(result: Sweep, quantity: Optional[str], ax: Any, direction: Optional[
     _label_abscissa(result, ax)
     label = _quantity_label(quantity, poincare if is_section else points)
     ax.set_ylabel(f"Poincaré points of  {label}" if is_section else label)
-    _legend(ax)
 
 
 def _edges(values: Array) -> Array:
@@ -337,7 +389,6 @@ def _branches(result: Branches, quantity: Optional[str], ax: Any) -> None:
     _label_abscissa(result, ax)
     label = _quantity_label(quantity, poincare if is_section else orbits)
     ax.set_ylabel(f"Poincaré points of  {label}" if is_section else label)
-    _legend(ax)
 
 
 def _crossings(values: Array, poincare: Table, branch: int, indices: Array) -> List[Array]:
@@ -396,8 +447,6 @@ def _run(result: Run, quantity: Optional[str], ax: Any) -> None:
     ax.set_xlabel("Time in mesh periods")
     ax.set_ylabel("Deflection / b$_c$" if quantity is None else _quantity_label(quantity, table))
     ax.margins(x=0)
-    if quantity is None:
-        _legend(ax)
 
 
 def _by_word(ax: Any, table: Table, word: str, x: Array, y: Array, linewidth: float) -> None:
@@ -417,7 +466,6 @@ def _tolerance(result: Tolerance, quantity: Optional[str], ax: Any) -> None:
     ax.set_yscale("log")
     ax.set_xlabel("Evaluations of the right-hand side")
     ax.set_ylabel("Error of the orbit  [b$_c$, b$_c$ per τ]" if quantity == "orbit_error" else _literal(quantity))
-    _legend(ax)
 
 
 def _crosscheck(result: Crosscheck, quantity: Optional[str], ax: Any) -> None:
@@ -429,7 +477,6 @@ def _crosscheck(result: Crosscheck, quantity: Optional[str], ax: Any) -> None:
                   _parameter_label(result.parameter))
     ax.set_ylabel("Distance of the orbits  [b$_c$, b$_c$ per τ]" if quantity == "orbit_distance" else
                   _literal(quantity))
-    _legend(ax)
 
 
 def _gear(result: Gear, quantity: Optional[str], ax: Any) -> None:
@@ -442,4 +489,3 @@ def _gear(result: Gear, quantity: Optional[str], ax: Any) -> None:
     ax.set_xlabel("Mesh phase  [mesh periods]")
     ax.set_ylabel("Mesh stiffness  [10$^9$ N/m]")
     ax.margins(x=0)
-    _legend(ax)

@@ -427,7 +427,11 @@ class Result:
     # -- figures
 
     def plot(
-        self, quantity: Optional[str] = None, ax: Optional[Any] = None, direction: Optional[str] = None
+        self,
+        quantity: Optional[str] = None,
+        ax: Optional[Any] = None,
+        direction: Optional[str] = None,
+        label: Optional[str] = None,
     ) -> Any:
         """Draw a quantity.
 
@@ -439,6 +443,9 @@ class Result:
             matplotlib Axes to draw in; new ones if it is None.
         direction
             ``"up"`` or ``"down"``, for sweeps and maps. Sweeps draw both if it is None, maps the first.
+        label
+            Name of this result in the legend. Of several results in the same axes it is the name of the folder if it
+            is None, and each has colours of its own.
 
         Returns
         -------
@@ -451,7 +458,7 @@ class Result:
         """
         from . import _plots
 
-        return _plots.plot(self, quantity, ax, direction)
+        return _plots.plot(self, quantity, ax, direction, label)
 
     # -- notebooks
 

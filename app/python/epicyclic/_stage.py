@@ -179,6 +179,39 @@ class Stage:
         document["study"] = study
         return document
 
+    def check(self, kind: Optional[str] = None, **keys: Any) -> Dict[str, Any]:
+        """Validate a study of this stage and compute nothing, as ``epicyclic check --no-time``.
+
+        Parameters
+        ----------
+        kind
+            Such as ``"sweep"``. Default: that of the study with which the stage was loaded, else the stage alone.
+        **keys
+            Keys of the study.
+
+        Returns
+        -------
+        dict
+            ``problems`` (tuples of ``Problem``; empty: the study is valid) and ``warnings`` (sentences). A valid study
+            that is computed point by point has also ``points`` and ``mesh_periods``, the numbers of both without what
+            classifies the regimes.
+        """
+        document = self.to_dict()
+        if kind is None:
+            kind = document.get("study", {}).get("kind")
+        if kind is None and keys:
+            raise TypeError("keys of a study need its kind: check('sweep', ...)")
+        if not (kind is None or isinstance(kind, str)):
+            raise TypeError(f"kind is {repr_of(kind)}, must be a text")
+        try:
+            found = _parsed(document if kind is None else self.study(kind, **keys))
+            texts = [text.removeprefix("warning: ") for text in found.warnings()]
+            return {"problems": [], "warnings": texts, **found.points()}
+        except InputError as error:
+            if not error.problems:
+                raise
+            return {"problems": list(error.problems), "warnings": []}
+
     def gear(self, out: Folder = None) -> Any:
         """Compute teeth, contact, stiffness and modes.
 
