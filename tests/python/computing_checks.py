@@ -174,7 +174,8 @@ class Studies(Folders):
             thread.join()
         self.assertEqual(found[3], list(stage().sweep(points=3, **FEW).points["force_sp_max"]))
 
-    def test_ctrl_c_is_resumed_by_the_command(self):
+    def interrupt_and_resume(self, sent, exit_code, state):
+        """A sweep in Python is ended by a signal; the command computes the rest, with the bytes of one command."""
         script = (
             "import sys, epicyclic as ep\n"
             f"stage = ep.Stage.load({str(INPUTS / 'tang2020_speed.json')!r})\n"
@@ -188,10 +189,10 @@ class Studies(Folders):
             while process.poll() is None and sum(j.stat().st_size for j in journals) < 20000:
                 time.sleep(0.02)
                 journals = list((self.work / "a").glob("journal*"))
-            process.send_signal(signal.SIGINT)
-            self.assertEqual(process.wait(30), 33)
+            process.send_signal(sent)
+            self.assertEqual(process.wait(30), exit_code)
         run = json.loads((self.work / "a" / "run.json").read_text())
-        self.assertEqual(run["state"], "stopped")
+        self.assertEqual(run["state"], state)
         command("sweep", self.work / "a" / "input.json", "-o", self.work / "a", "--threads", 2)
         run = json.loads((self.work / "a" / "run.json").read_text())
         self.assertEqual(run["state"], "complete")
@@ -200,6 +201,12 @@ class Studies(Folders):
         left, right = files_of(self.work / "a"), files_of(self.work / "b")
         for name in ("points.csv", "poincare.csv", "input.resolved.json", "input.json", "sweep.md"):
             self.assertEqual(left[name], right[name], name)
+
+    def test_ctrl_c_is_resumed_by_the_command(self):
+        self.interrupt_and_resume(signal.SIGINT, 33, "stopped")
+
+    def test_a_killed_process_is_resumed_by_the_command(self):
+        self.interrupt_and_resume(signal.SIGKILL, -signal.SIGKILL, "running")
 
 
 def call(task):
