@@ -130,7 +130,7 @@ TEST(Survey, PartsComputeEachEvaluationOnce) {
   evaluated = 0;
   KnownEvaluations all;
   for (int pass = 0; pass < 2; ++pass)
-    for (const std::size_t number : {2, 3, 1}) all = of_part(all, {number, 3});
+    for (const std::size_t number : {2U, 3U, 1U}) all = of_part(all, {number, 3});
   EXPECT_EQ(evaluated, whole.size());
   ASSERT_EQ(all.size(), whole.size());
   for (const auto& [key, c] : whole) EXPECT_EQ(all.at(key).u, c.u);
