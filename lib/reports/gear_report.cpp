@@ -410,11 +410,12 @@ std::string error_words(const gear::Stage& stage, double mesh_frequency_ratio) {
   const auto of = [&](const char* name, const gear::Mesh& mesh) {
     const double amplitude = std::ranges::max(mesh.error_amplitude_um);
     const double deflection = gear::static_deflection_um(mesh, load);
-    return fmt::format("{} {:.3g} um on a static deflection of {:.3g} um ({:.3g} times)", name, amplitude, deflection,
+    return fmt::format("{}{:.3g} um on a static deflection of {:.3g} um ({:.3g} times)", name, amplitude, deflection,
                        amplitude / deflection);
   };
-  return fmt::format("amplitude of the transmission error: {}, {}", of("sun-planet", stage.sun_planet_mesh),
-                     of("ring-planet", stage.ring_planet_mesh));
+  const std::string amplitude = "amplitude of the transmission error: ";
+  if (stage.is_pair()) return amplitude + of("", stage.sun_planet_mesh);
+  return amplitude + of("sun-planet ", stage.sun_planet_mesh) + ", " + of("ring-planet ", stage.ring_planet_mesh);
 }
 
 std::vector<ModeRange> mode_ranges(const input::LoadedInput& input, const std::vector<model::Mode>& modes) {

@@ -15,12 +15,14 @@ namespace epicyclic::reports {
   return "sun " + short_text(gear::rpm * speeds.sun, digits) + " rpm";
 }
 
-/// "sun 6000 rpm, carrier 1500 rpm, mesh frequency 2025 Hz".
+/// "sun 6000 rpm, carrier 1500 rpm, mesh frequency 2025 Hz"; without a carrier that stands still, or is not there.
 /// @param mesh_frequency  omega_m [rad/s]
 [[nodiscard]] inline std::string speed_words(const gear::Speeds& speeds, double mesh_frequency) {
   constexpr int digits = 6;
-  return sun_speed_words(speeds, digits) + ", carrier " + short_text(gear::rpm * speeds.carrier, digits) +
-         " rpm, mesh frequency " + short_text(mesh_frequency / (2.0 * std::numbers::pi), digits) + " Hz";
+  const std::string carrier =
+      speeds.carrier == 0.0 ? std::string() : ", carrier " + short_text(gear::rpm * speeds.carrier, digits) + " rpm";
+  return sun_speed_words(speeds, digits) + carrier + ", mesh frequency " +
+         short_text(mesh_frequency / (2.0 * std::numbers::pi), digits) + " Hz";
 }
 
 /// The sun's speed of a stage at a mesh frequency.
