@@ -95,11 +95,11 @@ constexpr double force_error_limit = 0.02;
 struct Largest {
   std::string what, unit;
   std::function<double(const PointSummary&)> of;
+  bool of_stage = false;  ///< not of a pair of gears, which has no ring, and nothing to share loads with
   std::optional<double> value{};
   std::string at{};  ///< in words
 };
 
-/// @param pair  of a pair of gears, which has no ring, and nothing to share loads with
 std::vector<Largest> largest_of(bool pair) {
   const auto greatest = [](const std::vector<studies::MeshRecord>& meshes, auto number) {
     double most = 0.0;
@@ -112,15 +112,15 @@ std::vector<Largest> largest_of(bool pair) {
       {"dynamic factor K_v of a sun mesh", "1",
        [](const PointSummary& r) { return studies::StageRecord::kv(r.meshes.sun_planet); }},
       {"dynamic factor K_v of a ring mesh", "1",
-       [](const PointSummary& r) { return studies::StageRecord::kv(r.meshes.ring_planet); }},
+       [](const PointSummary& r) { return studies::StageRecord::kv(r.meshes.ring_planet); }, true},
       {"force of a sun mesh over its static force F_0", "1",
        [](const PointSummary& r) { return r.meshes.dynamic_factor(r.meshes.sun_planet); }},
       {"force of a ring mesh over F_0 of a sun mesh", "1",
-       [](const PointSummary& r) { return r.meshes.dynamic_factor(r.meshes.ring_planet); }},
+       [](const PointSummary& r) { return r.meshes.dynamic_factor(r.meshes.ring_planet); }, true},
       {"mesh load factor K_gamma of the sun meshes", "1",
-       [](const PointSummary& r) { return studies::StageRecord::k_gamma(r.meshes.sun_planet); }},
+       [](const PointSummary& r) { return studies::StageRecord::k_gamma(r.meshes.sun_planet); }, true},
       {"mesh load factor K_gamma of the ring meshes", "1",
-       [](const PointSummary& r) { return studies::StageRecord::k_gamma(r.meshes.ring_planet); }},
+       [](const PointSummary& r) { return studies::StageRecord::k_gamma(r.meshes.ring_planet); }, true},
       {"force of a sun mesh", "N",
        [=](const PointSummary& r) {
          return greatest(r.meshes.sun_planet, [&](const auto& m) { return force(m.force); });
@@ -128,29 +128,26 @@ std::vector<Largest> largest_of(bool pair) {
       {"force of a ring mesh", "N",
        [=](const PointSummary& r) {
          return greatest(r.meshes.ring_planet, [&](const auto& m) { return force(m.force); });
-       }},
+       },
+       true},
       {"force of a planet's bearing", "N", [](const PointSummary& r) { return r.meshes.largest_bearing_force(); }},
       {"peak to peak of delta_sp_1", "b_c",
        [](const PointSummary& r) { return r.meshes.sun_planet.front().delta.range(); }},
       {"RMS of delta_sp_1", "b_c", [](const PointSummary& r) { return r.meshes.sun_planet.front().delta.rms; }},
       {"peak to peak of delta_rp_1", "b_c",
-       [](const PointSummary& r) { return r.meshes.ring_planet.front().delta.range(); }},
+       [](const PointSummary& r) { return r.meshes.ring_planet.front().delta.range(); }, true},
       {"peak to peak of the transmission error", "b_c",
        [](const PointSummary& r) { return r.meshes.transmission_error.range(); }},
       {"time out of contact, sun mesh", "part of the time",
        [](const PointSummary& r) { return studies::StageRecord::loss_time(r.meshes.sun_planet); }},
       {"time out of contact, ring mesh", "part of the time",
-       [](const PointSummary& r) { return studies::StageRecord::loss_time(r.meshes.ring_planet); }},
+       [](const PointSummary& r) { return studies::StageRecord::loss_time(r.meshes.ring_planet); }, true},
       {"mean mesh force of a planet, over the average of the planets", "1",
-       [](const PointSummary& r) { return r.meshes.largest_share(); }},
+       [](const PointSummary& r) { return r.meshes.largest_share(); }, true},
       {"largest mesh force of a planet, over the average of the planets", "1",
-       [](const PointSummary& r) { return r.meshes.largest_share(&Course::largest); }},
+       [](const PointSummary& r) { return r.meshes.largest_share(&Course::largest); }, true},
   };
-  if (pair)
-    std::erase_if(all, [](const Largest& l) {
-      const auto has = [&l](std::string_view part) { return l.what.find(part) != std::string::npos; };
-      return has("ring") || has("delta_rp") || has("K_gamma") || has("average of the planets");
-    });
+  if (pair) std::erase_if(all, [](const Largest& l) { return l.of_stage; });
   return all;
 }
 
@@ -402,7 +399,7 @@ class Summary {
       s.numbers[number] = *more.value;
     };
     // Of the sun meshes and, of a stage, of the ring meshes.
-    const std::size_t kinds = largest_[1].what.find("ring") != std::string::npos ? 2 : 1;
+    const std::size_t kinds = largest_[1].of_stage ? 2 : 1;
     add_line(largest_[0], largest_[kinds - 1], "largest_kv");
     add_line(largest_[kinds], largest_[2 * kinds - 1], "largest_dynamic_factor");
   }
