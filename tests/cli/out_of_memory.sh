@@ -15,7 +15,7 @@ sweep=(sweep "${speeds[@]}" --set /study/from=3 --set /study/points=2 --set /stu
   --set /study/classification_periods=0 --set /integrator/relative_tolerance=1e-4 --set /integrator/absolute_tolerance=1e-6)
 gear=(gear "$inputs/tang2020.json")
 run=(run "$inputs/tang2020_run.json" --set /operation/mesh_frequency_ratio=2.8 "${few[@]}" --set /study/exponent_periods=4
-  --set /study/check_tolerance=1e-6 --set /study/spectrum_periods=1000 --set /study/history_periods=1000)
+  --set /study/check_tolerance=1e-6 --set /study/spectrum_periods=2000 --set /study/history_periods=2000)
 map=(map "$inputs/tang2020_map.json" --set /study/first/points=2 --set /study/second/points=2 "${few[@]}")
 
 # Memory that the program begins with, in KiB: with less it ends in the dynamic linker, before its first line.
