@@ -34,6 +34,7 @@ RecordingOptions screening_recording(const ClaimsOptions& options, const Screeni
   recording.growth_periods = screening.growth_periods;
   recording.period_max = std::min(recording.period_max, screening.recorded_periods / 2);
   recording.keep = Keep::section;
+  recording.quasi_static = false;  // no condition reads them
   return recording;
 }
 
@@ -179,6 +180,7 @@ Evaluation evaluate_whole(const ClaimsOptions& options, const integrate::Integra
     // Evidence beyond the record changes no dot.
     if (reading == Reading::printed && whole.recording.transient == Transient::fixed && !needs_exponents(options))
       whole.recording.classification_periods = 0;
+    whole.recording.quasi_static = false;
     const SweepPlan plan = plan_sweep(whole);
     SweepRun run;
     run.stop = stop;

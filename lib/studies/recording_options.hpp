@@ -37,6 +37,7 @@ struct RecordingOptions {
   int growth_periods = 0;
 
   Keep keep = Keep::section;  ///< by the kind of study, not by the input
+  bool quasi_static = true;   ///< forces of the quasi-static solution: by the kind of study, not by the input
 
   /// @throws InputError for counts below what there has to be, or a tolerance that is not positive
   void validate() const;

@@ -162,7 +162,7 @@ double StageRecord::largest_bearing_force() const {
   return planet_bearing.empty() ? 0.0 : std::ranges::max(planet_bearing, {}, &Course::largest).largest;
 }
 
-ResponseStatistics::ResponseStatistics(const model::DynamicModel& model, int phases, bool keeps_signal)
+ResponseStatistics::ResponseStatistics(const model::DynamicModel& model, int phases, StatisticsOptions options)
     : model_(model),
       rows_{static_cast<std::size_t>(model.planets)},
       phases_(recording_phases(model, phases)),
@@ -172,7 +172,7 @@ ResponseStatistics::ResponseStatistics(const model::DynamicModel& model, int pha
       sums_(rows_.count()),
       sun_planet_(rows_.planets),
       ring_planet_(rows_.planets),
-      keeps_signal_(keeps_signal) {
+      options_(options) {
   recording_ = model.outputs_at ? model.outputs_at(phases_.s) : outputs_of_deflections(model, phases_.s);
   uniform_.assign((phases_.size() + model::phases_together - 1) / model::phases_together, Numbers(0.0));
   odd_ = uniform_;
@@ -243,7 +243,7 @@ void ResponseStatistics::recording(std::size_t group, std::size_t count) {
     if (one[lane] == 0.0) continue;
     const std::size_t j = weighed_++ % count_;
     for (std::size_t k = 0; k < signals.size(); ++k) profiles_[k][j] += now_[signals[k]][lane];
-    if (keeps_signal_) signal_.push_back(now_[signals[0]][lane]);
+    if (options_.signal) signal_.push_back(now_[signals[0]][lane]);
   }
 }
 
@@ -286,7 +286,7 @@ StageRecord ResponseStatistics::finish() {
   all.static_force = newton * model_.static_mesh_force;
   all.mesh_frequency = model_.omega * model_.scales.omega_sn;
   all.speeds = model_.speeds;
-  if (seen_ == 0) return all;
+  if (seen_ == 0 || !options_.quasi_static) return all;
   const std::vector<Course> forces = quasi_static_forces(model_, static_cast<int>(count_));
   for (std::size_t k = 0; k < forces.size(); ++k)
     (k < rows_.planets ? all.sun_planet[k] : all.ring_planet[k - rows_.planets]).quasi_static = forces[k];

@@ -130,13 +130,18 @@ struct StageRecord {
 /// @param phases  uniform ones; extrema are those of both sides of each breakpoint, too
 [[nodiscard]] std::vector<Course> quasi_static_forces(const model::DynamicModel& model, int phases);
 
+/// What is kept or computed beside the statistics.
+struct StatisticsOptions {
+  bool signal = false;       ///< delta_sp_1 at each phase, for signal()
+  bool quasi_static = true;  ///< quasi_static_forces()
+};
+
 /// Takes a trajectory at uniform phases of its dense output.
 class ResponseStatistics {
  public:
   /// @param model   must live longer
   /// @param phases  samples per mesh period that means are taken over
-  /// @param keeps_signal  delta_sp_1 at each of them, for signal()
-  ResponseStatistics(const model::DynamicModel& model, int phases, bool keeps_signal = false);
+  ResponseStatistics(const model::DynamicModel& model, int phases, StatisticsOptions options = {});
 
   /// Phases of a period at which see() takes the state, in their order.
   [[nodiscard]] const std::vector<double>& phases() const { return phases_.s; }
@@ -186,7 +191,7 @@ class ResponseStatistics {
   std::array<std::vector<double>, 3> profiles_;
   std::size_t seen_ = 0;
   std::size_t weighed_ = 0;  ///< of them at uniform phases
-  bool keeps_signal_;
+  StatisticsOptions options_;
   std::vector<double> signal_;
 };
 

@@ -53,7 +53,8 @@ class PointRun {
         // Without tangents there is nothing but recurrence, and no end of a transient.
         classifies_(recording.classification_periods > 0 && has_classification(model_)),
         adaptive_(classifies_ && recording.transient == Transient::adaptive),
-        watch_(model_, recording.output_phases, recording.keep == Keep::section),
+        watch_(model_, recording.output_phases,
+               {.signal = recording.keep == Keep::section, .quasi_static = recording.quasi_static}),
         strobe_(model_.dimension,
                 {adaptive_ ? 0 : recording.transient_periods, recording.recorded_periods, recording.output_phases},
                 watch_.phases(), [this](std::size_t, double, std::span<const double> y) { watch_.see(y); }) {
