@@ -446,7 +446,7 @@ std::vector<Warning> mass_warnings(const Stage& s) {
   Warnings out;
   if (!s.catalogue && !s.is_pair())
     for (const auto& [name, mass, inertia] : {std::tuple("sun", s.sun.mass_kg, s.sun.inertia_over_r2_kg),
-                                              std::tuple("planet", s.planet.mass_kg, s.planet.inertia_over_r2_kg),
+                                              std::tuple("planet", double{s.planet.mass_kg}, double{s.planet.inertia_over_r2_kg}),
                                               std::tuple("ring", s.ring.mass_kg, s.ring.inertia_over_r2_kg),
                                               std::tuple("carrier", s.carrier.mass_kg, s.carrier.inertia_over_r2_kg)})
       check_member(out, name, mass, inertia, 0.0, std::nullopt);
@@ -495,7 +495,8 @@ std::vector<Warning> warnings_at(const Stage& s, double mesh_frequency, const Ge
   const double density = s.catalogue ? s.catalogue->material.density_kg_per_m3 : Material{}.density_kg_per_m3;
   const Speeds w = speeds(s, mesh_frequency);
   check_speed(out, "/lumped/sun", "its teeth", w.sun, *s.sun.base_radius_mm, density);
-  check_speed(out, "/lumped/planet", "its teeth", w.carrier - mesh_frequency / *s.planet.teeth,
+  const double carrier = s.boundary == Boundary::fixed_sun ? -w.carrier : w.carrier;
+  check_speed(out, "/lumped/planet", "its teeth", carrier - mesh_frequency / *s.planet.teeth,
               *s.planet.base_radius_mm, density);
   if (!s.is_pair()) check_speed(out, "/lumped/carrier", "the planets' axes", w.carrier, *s.centre_distance_mm, density);
 
@@ -519,6 +520,9 @@ std::vector<Warning> warnings_at(const Stage& s, double mesh_frequency, const Ge
   if (s.boundary == Boundary::fixed_ring && std::isfinite(s.ring.torsional_support_N_per_m))
     check_deflection(out, "/lumped/ring/torsional_support_N_per_m", "the ring's torsional support",
                      s.planet_count * load.force_N, s.ring.torsional_support_N_per_m, module);
+  if (s.boundary == Boundary::fixed_sun)
+    check_deflection(out, "/lumped/sun/torsional_support_N_per_m", "the sun's torsional support",
+                     s.planet_count * load.force_N, s.sun.torsional_support_N_per_m, module);
   if (s.boundary == Boundary::star)
     check_deflection(out, "/lumped/carrier/torsional_support_N_per_m", "the carrier's torsional support",
                      s.planet_count * load.force_N * (std::cos(alpha.sun_planet) + std::cos(alpha.ring_planet)),
