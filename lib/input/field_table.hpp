@@ -294,37 +294,31 @@ Format<std::vector<double>> number_or_numbers_format(std::string_view key, const
 /// Of a class that is made of one number or several, values(), as gear::PerPlanet is.
 template <class V>
 Format<V> values_format(Format<std::vector<double>> numbers) {
-  Format<V> format;
-  format.read = [read = numbers.read](const json& value, const std::string& pointer,
-                                      ReadContext& context) -> std::optional<V> {
-    if (auto read_numbers = read(value, pointer, context)) return V(std::move(*read_numbers));
-    return std::nullopt;
-  };
-  format.write = [write = numbers.write](const V& value) { return write(value.values()); };
-  format.schema = numbers.schema;
-  return format;
+  return {[read = numbers.read](const json& value, const std::string& pointer,
+                                ReadContext& context) -> std::optional<V> {
+            if (auto read_numbers = read(value, pointer, context)) return V(std::move(*read_numbers));
+            return std::nullopt;
+          },
+          [write = numbers.write](const V& value) { return write(value.values()); }, numbers.schema};
 }
 /// The same, or "rigid" in place of one number.
 template <class V>
 Format<V> values_or_rigid_format(std::string_view key, const Bounds& bounds, std::size_t size_max) {
   const Format<double> rigid = number_or_rigid_format(key, bounds);
   const Format<V> numbers = values_format<V>(number_or_numbers_format(key, bounds, size_max));
-  Format<V> format;
-  format.read = [rigid, numbers](const json& value, const std::string& pointer,
-                                 ReadContext& context) -> std::optional<V> {
-    if (value.is_array()) return numbers.read(value, pointer, context);
-    if (const auto one = rigid.read(value, pointer, context)) return V(*one);
-    return std::nullopt;
-  };
-  format.write = [rigid, numbers](const V& value) {
-    return value.values().size() == 1 ? rigid.write(value.values()[0]) : numbers.write(value);
-  };
-  format.schema = [rigid, bounds, size_max] {
-    ordered_json schema = rigid.schema();
-    schema["anyOf"].push_back(numbers_schema(bounds, 1, size_max));
-    return schema;
-  };
-  return format;
+  return {[rigid, numbers](const json& value, const std::string& pointer, ReadContext& context) -> std::optional<V> {
+            if (value.is_array()) return numbers.read(value, pointer, context);
+            if (const auto one = rigid.read(value, pointer, context)) return V(*one);
+            return std::nullopt;
+          },
+          [rigid, numbers](const V& value) {
+            return value.values().size() == 1 ? rigid.write(value.values()[0]) : numbers.write(value);
+          },
+          [rigid, bounds, size_max] {
+            ordered_json schema = rigid.schema();
+            schema["anyOf"].push_back(numbers_schema(bounds, 1, size_max));
+            return schema;
+          }};
 }
 /// Of places in a list of names.
 Format<std::size_t> name_format(const std::vector<std::string>& names);

@@ -5,6 +5,7 @@
 
 #include "input/pointers.hpp"
 #include "input/stage_completion.hpp"
+#include "input/study_kind.hpp"
 
 namespace epicyclic::input {
 

@@ -376,13 +376,14 @@ std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ra
         *stage.sun.teeth, *stage.planet.teeth, mesh_frequency / speeds.sun, mesh_frequency_ratio,
         speeds.sun * gear::rpm, gear::torques(stage, mesh_frequency).sun,
         gear::mean_mesh_load(stage, mesh_frequency).force_N, stage.sun_planet_mesh.stiffness_N_per_m / giga);
+  const bool held = stage.boundary == gear::Boundary::fixed_sun;
   return fmt::format(
-      "{}/{}/{} teeth, {} planets: ω_m = {:.4g} ω_s; at Ω = {:.4g} the sun rotates at {:.0f} rpm, the carrier at "
+      "{}/{}/{} teeth, {} planets: ω_m = {:.4g} {}; at Ω = {:.4g} the sun rotates at {:.0f} rpm, the carrier at "
       "{:.0f} rpm, T_D = {:.4g} N m, mean mesh force {:.4g} N; mean stiffness {:.4g} (sun-planet) and {:.4g} "
       "(ring-planet) 10^9 "
       "N/m.",
-      *stage.sun.teeth, *stage.planet.teeth, *stage.ring.teeth, stage.planet_count, mesh_frequency / speeds.sun,
-      mesh_frequency_ratio, speeds.sun * gear::rpm, speeds.carrier * gear::rpm,
+      *stage.sun.teeth, *stage.planet.teeth, *stage.ring.teeth, stage.planet_count,
+      mesh_frequency / (held ? speeds.carrier : speeds.sun), held ? "ω_c" : "ω_s", mesh_frequency_ratio, speeds.sun * gear::rpm, speeds.carrier * gear::rpm,
       gear::torques(stage, mesh_frequency).sun, gear::mean_mesh_load(stage, mesh_frequency).force_N,
       stage.sun_planet_mesh.stiffness_N_per_m / giga, stage.ring_planet_mesh.stiffness_N_per_m / giga);
 }

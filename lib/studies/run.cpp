@@ -158,12 +158,23 @@ class Run {
     if (options_.exponent_periods > 0 && !model_.jumps_at_surfaces && go_on_() && model_.remove_synchronous &&
         r.point.meshes.planet_spread <= synchronous)
       find_transverse(r);
+    count_in_mesh_periods(r);
     return go_on_();
   }
 
  private:
   void at(const char* what, int exponent_interval = 0) const {
     if (control_.at) control_.at(what, exponent_interval);
+  }
+
+  /// What was counted in periods of the field.
+  void count_in_mesh_periods(RunResult& r) const {
+    analysis::Recurrence& of_record = r.point.recurrence;
+    analysis::Recurrence& of_evidence = r.point.evidence.recurrence;
+    for (int* count : {&r.point.period, &of_record.period, &of_record.best_period, &of_evidence.period,
+                       &of_evidence.best_period, &r.point.evidence.periods})
+      *count *= model_.mesh_periods;
+    if (r.checks) r.checks->intervals *= model_.mesh_periods;
   }
 
   /// Periods of the field that have so many mesh periods, or more.

@@ -464,6 +464,11 @@ analysis::Estimate largest_exponent(const RunResult& r) {
   return {std::log(modulus) / time, std::log1p(r.multipliers->errors.front() / modulus) / time};
 }
 
+double recorded_mesh_periods(const RunOutput& output, const RunResult& r) {
+  return r.mesh_periods == 1 ? static_cast<double>(output.points.sweep.recording.recorded_periods)
+                             : static_cast<double>(r.point.poincare_rows()) * r.mesh_periods;
+}
+
 std::string regime_text(const RunOutput& output, const RunResult& r) {
   const studies::PointResult& p = r.point;
   const analysis::Evidence& e = p.evidence;
@@ -518,11 +523,11 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
   }
   text += bullet(p.recurrence.period > 0
                      ? fmt::format("The record of {:g} mesh periods repeats after {}, to {:.2g} [b_c, b_c per tau].",
-                                   static_cast<double>(output.points.sweep.recording.recorded_periods),
+                                   recorded_mesh_periods(output, r),
                                    mesh_periods(p.recurrence.period), p.recurrence.error)
                      : fmt::format("The record of {:g} mesh periods does not repeat: nearest after {}, to {:.2g} "
                                    "[b_c, b_c per tau].",
-                                   static_cast<double>(output.points.sweep.recording.recorded_periods),
+                                   recorded_mesh_periods(output, r),
                                    mesh_periods(p.recurrence.best_period), p.recurrence.error));
   return text;
 }
@@ -562,7 +567,8 @@ std::string section_text(const RunResult& r) {
   std::string text = fmt::format("Eccentricities and pitch errors repeat after {} mesh periods, which is here one period.",
                                  r.mesh_periods);
   text += r.mesh_periods <= studies::section_periods_max
-              ? fmt::format(" The section has one point in each: period n is n times {} mesh periods.", r.mesh_periods)
+              ? fmt::format(" The section has one point in each, and the periods below are multiples of {} mesh periods.",
+                            r.mesh_periods)
               : fmt::format(" Regime, multipliers and exponents are not sought beyond {} mesh periods.",
                             studies::section_periods_max);
   return wrapped(text);
