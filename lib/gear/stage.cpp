@@ -335,7 +335,7 @@ void check_mesh_for_dynamics(Problems& out, const std::string& pointer, const Me
 }
 
 /// A member of which nothing is given.
-bool is_absent(const CentralMember& m) { return m.mass_kg == 0.0 && m.inertia_over_r2_kg == 0.0; }
+bool is_absent(const CentralMember& m) { return m.mass_kg == 0.0 && m.inertia_over_r2_kg == 0.0 && !m.errors.repeat(); }
 
 /// Members and meshes of a planetary stage beside sun and planets.
 void check_stage_members(Problems& out, const Stage& s) {
@@ -394,9 +394,9 @@ void for_each_planet(const std::string& pointer, const PerPlanet& values, const 
 /// Masses, inertias and bearings of the planets.
 void check_planets(Problems& out, const Stage& s) {
   const std::string place = "/lumped/planet/";
-  for (const auto& [key, values] : {std::pair("mass_kg", &s.planet.mass_kg),
-                                    std::pair("inertia_over_r2_kg", &s.planet.inertia_over_r2_kg),
-                                    std::pair("bearing_N_per_m", &s.planet.bearing_N_per_m)})
+  for (const auto& [key, values] :
+       {std::pair("mass_kg", &s.planet.mass_kg), std::pair("inertia_over_r2_kg", &s.planet.inertia_over_r2_kg),
+        std::pair("bearing_N_per_m", &s.planet.bearing_N_per_m)})
     check_per_planet(out, place + key, values->values(), s.planet_count);
   const auto positive = [&](const std::string& pointer, double value) { check_positive(out, pointer, value); };
   for_each_planet(place + "mass_kg", s.planet.mass_kg, positive);
@@ -415,7 +415,7 @@ bool has_allowed_count(const Stage& s) {
 int Stage::mesh_periods() const {
   int periods = 1;
   const auto repeats = [&](bool has_errors, const std::optional<int>& teeth) {
-    if (has_errors) periods = std::min(std::lcm(periods, teeth.value()), mesh_periods_max + 1);
+    if (has_errors) periods = std::min(std::lcm(periods, teeth.value_or(1)), mesh_periods_max + 1);
   };
   repeats(sun.errors.repeat(), sun.teeth);
   repeats(planet.eccentricity_um.has_value(), planet.teeth);

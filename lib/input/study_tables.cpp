@@ -92,8 +92,10 @@ void add_damping(Table<T>& table, F damping) {
 
 template <class T, class F>
 void add_body(Table<T>& table, F body, const std::string& radius) {
-  const auto weight = chain(body, [](auto& b) -> auto& { return b.mass_kg; });
-  const auto inertia = chain(body, [](auto& b) -> auto& { return b.inertia_over_r2_kg; });
+  const auto weight = chain(
+      body, [](auto& b) -> auto& { return b.mass_kg; });
+  const auto inertia = chain(
+      body, [](auto& b) -> auto& { return b.inertia_over_r2_kg; });
   const std::string of_inertia = "Moment of inertia over the square of the " + radius + " [kg]";
   if constexpr (std::is_same_v<T, Planet>) {
     const std::string each = ": one number, or one per planet.";

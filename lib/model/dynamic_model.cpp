@@ -243,7 +243,8 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
     for (const auto* mesh : {&p->sun_planet, &p->ring_planet})
       if (mesh->friction) m.friction_table_error = std::max(m.friction_table_error, mesh->friction->error());
   }
-  m.static_mesh_force = (stage.boundary == gear::Boundary::fixed_sun ? p->ring_drive : p->drive) / static_cast<double>(N);
+  m.static_mesh_force =
+      (stage.boundary == gear::Boundary::fixed_sun ? p->ring_drive : p->drive) / static_cast<double>(N);
   for (std::size_t i = 0; i < N; ++i)
     m.planet_phases.push_back(p->sun_planet.phase_cycles[i] - p->sun_planet.phase_cycles[0]);
   if (N > 1 && planets_alike(*p)) {

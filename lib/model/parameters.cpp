@@ -140,8 +140,8 @@ std::shared_ptr<const FrictionTrack> make_track(const gear::Friction& friction, 
 ///
 ///   e_0sp = t cos alpha_sp + r sin alpha_sp ,  e_0rp = t cos alpha_rp - r sin alpha_rp                    [M-pin]
 ///
-/// So does a pin circle whose centre is beside the axis of the carrier. The change of the centrifugal force, of r / r_c,
-/// is left out.
+/// So does a pin circle whose centre is beside the axis of the carrier. The change of the centrifugal force, of r /
+/// r_c, is left out.
 template <std::size_t N>
 void add_pin_errors(Parameters<double, N>& p, const gear::Stage& stage, const Scales& scales) {
   const gear::PressureAngles alpha = gear::pressure_angles(stage);
@@ -178,9 +178,9 @@ void add_pin_errors(Parameters<double, N>& p, const gear::Stage& stage, const Sc
 /// (d = 1; against it d = -1), with phi_i from planet 1 for the teeth [M-shaft]:
 ///
 ///   sun      e_spi = - E_s sin(psi_s + d s / z_s + phi_spi)
-///   planet   e_spi = E_p sin(theta + phi_spi) ,  e_rpi = E_p sin(theta - phi_rpi) ,  theta = phi_i + psi_pi - d s / z_p
-///   ring     e_rpi = - E_r sin(psi_r - d s / z_r - phi_rpi)
-///   tooth k of z    e_i = p_k where it passes planet i, by the trigonometric polynomial through all teeth
+///   planet   e_spi = E_p sin(theta + phi_spi) ,  e_rpi = E_p sin(theta - phi_rpi) ,  theta = phi_i + psi_pi - d s /
+///   z_p ring     e_rpi = - E_r sin(psi_r - d s / z_r - phi_rpi) tooth k of z    e_i = p_k where it passes planet i, by
+///   the trigonometric polynomial through all teeth
 ///
 /// In the mirror image all angles have the other sign.
 template <std::size_t N>
@@ -224,7 +224,8 @@ class Shafts {
   /// @param direction  of the rotation relative to the carrier
   /// @param line       angle of the line of action of planet i
   template <class F>
-  void add_central(const gear::CentralMember& member, MeshParameters<double, N>& mesh, double direction, const F& line) {
+  void add_central(const gear::CentralMember& member, MeshParameters<double, N>& mesh, double direction,
+                   const F& line) {
     const auto& [eccentricity, phase_deg, pitch] = member.errors;
     if (!eccentricity && !pitch) return;
     const std::size_t teeth = pitch ? pitch->size() : 2;

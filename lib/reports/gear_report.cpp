@@ -383,17 +383,18 @@ std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ra
       "(ring-planet) 10^9 "
       "N/m.",
       *stage.sun.teeth, *stage.planet.teeth, *stage.ring.teeth, stage.planet_count,
-      mesh_frequency / (held ? speeds.carrier : speeds.sun), held ? "ω_c" : "ω_s", mesh_frequency_ratio, speeds.sun * gear::rpm, speeds.carrier * gear::rpm,
-      gear::torques(stage, mesh_frequency).sun, gear::mean_mesh_load(stage, mesh_frequency).force_N,
-      stage.sun_planet_mesh.stiffness_N_per_m / giga, stage.ring_planet_mesh.stiffness_N_per_m / giga);
+      mesh_frequency / (held ? speeds.carrier : speeds.sun), held ? "ω_c" : "ω_s", mesh_frequency_ratio,
+      speeds.sun * gear::rpm, speeds.carrier * gear::rpm, gear::torques(stage, mesh_frequency).sun,
+      gear::mean_mesh_load(stage, mesh_frequency).force_N, stage.sun_planet_mesh.stiffness_N_per_m / giga,
+      stage.ring_planet_mesh.stiffness_N_per_m / giga);
 }
 
 std::string drive_words(const gear::Stage& stage) {
   const bool negative = gear::is_mirrored(stage);
   if (!stage.runs_backward() && !negative && stage.boundary != gear::Boundary::fixed_sun) return {};
   if (stage.is_pair()) return "gear 1 drives; loaded flanks: those of negative torque on gear 1";
-  const std::string flanks = std::string("loaded flanks: those of ") + (negative ? "negative" : "positive") +
-                             " torque on the sun";
+  const std::string flanks =
+      std::string("loaded flanks: those of ") + (negative ? "negative" : "positive") + " torque on the sun";
   if (stage.boundary == gear::Boundary::fixed_sun) {
     const bool carrier_drives = stage.driver == gear::Driver::carrier;
     return fmt::format("the {} drives, the {} is driven; the sun is held; {}", carrier_drives ? "carrier" : "ring",
@@ -405,15 +406,14 @@ std::string drive_words(const gear::Stage& stage) {
   const bool is_star = stage.boundary == gear::Boundary::star;
   const bool by_carrier = stage.driver == gear::Driver::carrier;
   const bool by_sun = stage.driver == gear::Driver::sun;
-  return fmt::format(
-      "the {} drives, the {} is driven; the sun rotates {} its torque; {}",
-      by_sun       ? "sun"
-      : by_carrier ? "carrier"
-                   : "ring",
-      !by_sun   ? "sun"
-      : is_star ? "ring"
-                : "carrier",
-      stage.runs_backward() ? "against" : "with", flanks);
+  return fmt::format("the {} drives, the {} is driven; the sun rotates {} its torque; {}",
+                     by_sun       ? "sun"
+                     : by_carrier ? "carrier"
+                                  : "ring",
+                     !by_sun   ? "sun"
+                     : is_star ? "ring"
+                               : "carrier",
+                     stage.runs_backward() ? "against" : "with", flanks);
 }
 
 std::string error_words(const gear::Stage& stage, double mesh_frequency_ratio) {

@@ -21,8 +21,9 @@ namespace epicyclic::reports {
 /// @param mesh_frequency  omega_m [rad/s]
 [[nodiscard]] inline std::string speed_words(const gear::Speeds& speeds, double mesh_frequency) {
   constexpr int digits = 6;
-  const std::string carrier =
-      speeds.carrier == 0.0 || speeds.sun == 0.0 ? std::string() : ", carrier " + short_text(gear::rpm * speeds.carrier, digits) + " rpm";
+  const std::string carrier = speeds.carrier == 0.0 || speeds.sun == 0.0
+                                  ? std::string()
+                                  : ", carrier " + short_text(gear::rpm * speeds.carrier, digits) + " rpm";
   return sun_speed_words(speeds, digits) + carrier + ", mesh frequency " +
          short_text(mesh_frequency / (2.0 * std::numbers::pi), digits) + " Hz";
 }

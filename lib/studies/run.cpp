@@ -353,8 +353,8 @@ class Run {
     r.history.phases = options_.dense_phases;
     Recorder recorder(model_, scales_, r.history);
     std::vector<double> y = state_;
-    const int shown = r.orbit.has_value() ? std::max(r.point.period * model_.mesh_periods, options_.shown_periods)
-                                          : portrait_periods;
+    const int shown =
+        r.orbit.has_value() ? std::max(r.point.period * model_.mesh_periods, options_.shown_periods) : portrait_periods;
     const auto detail = static_cast<std::size_t>(portrait_detail(model_, options_, shown));
     r.portrait.phases = options_.dense_phases * static_cast<int>(detail);
     const std::vector<double> fine = analysis::uniform_phases(period, r.portrait.phases * model_.mesh_periods);
@@ -446,10 +446,10 @@ class Run {
       model_.deflections(s, now.data(), d);
       return d.sun_planet[0] - model_.sun_planet_half_gap;
     };
-    analysis::SurfaceSection section = analysis::surface_section(
-        *own_flow, y, surface, analysis::SectionCrossing::rising,
-        r.orbit ? r.point.period : sections(recording_.recorded_periods), recording_.output_phases * model_.mesh_periods,
-        go_on_);
+    analysis::SurfaceSection section =
+        analysis::surface_section(*own_flow, y, surface, analysis::SectionCrossing::rising,
+                                  r.orbit ? r.point.period : sections(recording_.recorded_periods),
+                                  recording_.output_phases * model_.mesh_periods, go_on_);
     for (std::size_t k = 0; k < section.section.size(); ++k) {
       model_.deflections(section.phase[k], section.section.point(k).data(), d);
       r.crossing_rate.push_back(d.sun_planet_rate[0]);

@@ -1,8 +1,9 @@
 // Every mode of drive, on random stages: power and torque of all members balance, the loaded flank carries, and a stage
 // that runs backward is the mirror image in time.
 //
-//   power    sum v (m a) = torques + errors' rates and springs + damping + friction, at any state       [full coordinates]
-//   torque   r_bs sum F_sp = T_s ,  r_br sum F_rp = T_r ,  r_c sum k_p delta_u = T_c ,  F_spi = F_rpi    [at rest]
+//   power    sum v (m a) = torques + errors' rates and springs + damping + friction, at any state       [full
+//   coordinates] torque   r_bs sum F_sp = T_s ,  r_br sum F_rp = T_r ,  r_c sum k_p delta_u = T_c ,  F_spi = F_rpi [at
+//   rest]
 //
 // Limits: the balance of power is that of the linear geometry of docs/theory/model.md; frame terms do no work together.
 
@@ -194,8 +195,10 @@ TEST(DriveModes, PowerBalancesOnAllMembers) {
     ASSERT_TRUE(gear::problems_for_dynamics(stage).empty()) << gear::problems_for_dynamics(stage)[0];
     Draw draw(77 + k);
     const double off = with_planets(stage.planet_count, [&]<std::size_t N>() {
-      if constexpr (N == 1) return std::numeric_limits<double>::quiet_NaN();  // a pair
-      else return power_off_balance<N>(stage, draw);
+      if constexpr (N == 1)
+        return std::numeric_limits<double>::quiet_NaN();  // a pair
+      else
+        return power_off_balance<N>(stage, draw);
     });
     EXPECT_LT(off, 1e-13) << k << ' ' << stage.name;
     worst = std::max(worst, off);
@@ -335,9 +338,8 @@ TEST(DriveModes, RelativeCoordinatesMoveAsTheFullOnesDo) {
     std::vector<double> slope(2 * n);
     full.right_hand_side(segment, s, y.data(), slope.data());
     const auto reduced = [&](const double* list) {
-      return with_planets(stage.planet_count, [&]<std::size_t N>() {
-        return in_relative_coordinates<N>(stage, relative.layout, list);
-      });
+      return with_planets(stage.planet_count,
+                          [&]<std::size_t N>() { return in_relative_coordinates<N>(stage, relative.layout, list); });
     };
     std::vector<double> z = reduced(y.data());
     const std::vector<double> rates = reduced(y.data() + n);

@@ -147,7 +147,8 @@ TEST(LoadSharing, OnePinAheadLoadsThePlanetsByNumberAndStiffness) {
     pins[0] = 10.0;
     stage.planet.pin_error_tangential_um = pins;
     const gear::PressureAngles alpha = gear::pressure_angles(stage);
-    const double force = 1e-5 * (std::cos(alpha.sun_planet) + std::cos(alpha.ring_planet)) / compliance_of(stage, alpha);
+    const double force =
+        1e-5 * (std::cos(alpha.sun_planet) + std::cos(alpha.ring_planet)) / compliance_of(stage, alpha);
     const double mean = 600.0 / (row.planets * 32.17853e-3);
     const std::vector<double> forces = forces_of(stage);
     for (std::size_t i = 0; i < n; ++i) {

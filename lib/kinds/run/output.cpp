@@ -521,14 +521,13 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
                                  : std::string("Integrated for the classification: the record alone."));
     if (!e.note.empty()) text += bullet(fmt::format("Note: {}.", unstopped(e.note)));
   }
-  text += bullet(p.recurrence.period > 0
-                     ? fmt::format("The record of {:g} mesh periods repeats after {}, to {:.2g} [b_c, b_c per tau].",
-                                   recorded_mesh_periods(output, r),
-                                   mesh_periods(p.recurrence.period), p.recurrence.error)
-                     : fmt::format("The record of {:g} mesh periods does not repeat: nearest after {}, to {:.2g} "
-                                   "[b_c, b_c per tau].",
-                                   recorded_mesh_periods(output, r),
-                                   mesh_periods(p.recurrence.best_period), p.recurrence.error));
+  text += bullet(
+      p.recurrence.period > 0
+          ? fmt::format("The record of {:g} mesh periods repeats after {}, to {:.2g} [b_c, b_c per tau].",
+                        recorded_mesh_periods(output, r), mesh_periods(p.recurrence.period), p.recurrence.error)
+          : fmt::format("The record of {:g} mesh periods does not repeat: nearest after {}, to {:.2g} "
+                        "[b_c, b_c per tau].",
+                        recorded_mesh_periods(output, r), mesh_periods(p.recurrence.best_period), p.recurrence.error));
   return text;
 }
 
@@ -564,13 +563,14 @@ std::string tensile_text(const RunOutput& output, const RunResult& r) {
 
 /// What a section is with errors of shafts.
 std::string section_text(const RunResult& r) {
-  std::string text = fmt::format("Eccentricities and pitch errors repeat after {} mesh periods, which is here one period.",
-                                 r.mesh_periods);
-  text += r.mesh_periods <= studies::section_periods_max
-              ? fmt::format(" The section has one point in each, and the periods below are multiples of {} mesh periods.",
-                            r.mesh_periods)
-              : fmt::format(" Regime, multipliers and exponents are not sought beyond {} mesh periods.",
-                            studies::section_periods_max);
+  std::string text = fmt::format(
+      "Eccentricities and pitch errors repeat after {} mesh periods, which is here one period.", r.mesh_periods);
+  text +=
+      r.mesh_periods <= studies::section_periods_max
+          ? fmt::format(" The section has one point in each, and the periods below are multiples of {} mesh periods.",
+                        r.mesh_periods)
+          : fmt::format(" Regime, multipliers and exponents are not sought beyond {} mesh periods.",
+                        studies::section_periods_max);
   return wrapped(text);
 }
 
@@ -704,14 +704,14 @@ std::vector<SpectralLine> strongest_lines(const SignalSpectrum& signal, std::siz
   std::vector<SpectralLine> lines;
   for (const analysis::Harmonic& h : signal.lines)
     if (h.order > 0)
-      lines.push_back(
-          {line_words(signal, h), static_cast<double>(h.order) / static_cast<double>(h.period), h.amplitude, h.of_forcing()});
+      lines.push_back({line_words(signal, h), static_cast<double>(h.order) / static_cast<double>(h.period), h.amplitude,
+                       h.of_forcing()});
   for (const analysis::Peak& p : signal.peaks) {
     if (p.frequency < signal.spectrum.frequency(mean_bins)) continue;
     const bool of_mesh = is_mesh_harmonic(p.frequency, signal.spectrum.resolution);
     const std::string of_shaft =
         studies::shaft_order_words(p.frequency, signal.shafts, 0.5 * signal.spectrum.resolution);
-    lines.push_back({of_mesh             ? std::to_string(p.harmonic)
+    lines.push_back({of_mesh            ? std::to_string(p.harmonic)
                      : of_shaft.empty() ? short_text(p.frequency, 4)
                                         : of_shaft,
                      p.frequency, p.amplitude, of_mesh});
