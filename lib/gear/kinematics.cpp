@@ -44,8 +44,8 @@ Torques torques(const Stage& stage, double mesh_frequency) {
       stage.load.power_kW ? of_power(*stage.load.power_kW * 1e3) : std::abs(stage.load.torque_Nm.value());
   if (stage.is_pair()) return {drive, 0.0, 0.0};
   if (stage.boundary == Boundary::star) return {drive, ratio * drive, 0.0};
-  const bool ring_turns = held_sun || stage.boundary == Boundary::free;
-  return {drive, ring_turns ? ratio * drive : 0.0, (1.0 + ratio) * drive};
+  const bool has_ring_torque = held_sun || stage.boundary == Boundary::free;
+  return {drive, has_ring_torque ? ratio * drive : 0.0, (1.0 + ratio) * drive};
 }
 
 double planet_centrifugal_force(const Stage& stage, double mesh_frequency) {

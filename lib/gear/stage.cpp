@@ -227,16 +227,16 @@ void check_torsion(Problems& out, const Stage& s) {
   const double k_cu = s.carrier.torsional_support_N_per_m;
   if (s.planet.torsional_support_N_per_m) out.add("/lumped/planet" + key, "is of gear 2 of a pair; planets have none");
   const char* name = boundary_name(s.boundary);
-  const auto must_turn = [&](const char* member, double k) {
+  const auto must_rotate = [&](const char* member, double k) {
     if (k != 0.0)
       out.add(std::string("/lumped/") + member + key, "must be 0 with boundary ", name, ", where the ", member,
               " is free (", k, ")");
   };
   if (s.boundary == Boundary::fixed_sun || s.boundary == Boundary::free) {
-    must_turn("ring", k_ru);
-    must_turn("carrier", k_cu);
+    must_rotate("ring", k_ru);
+    must_rotate("carrier", k_cu);
     if (s.boundary == Boundary::free)
-      must_turn("sun", k_su);
+      must_rotate("sun", k_su);
     else if (!(k_su > 0.0) || !std::isfinite(k_su))
       out.add("/lumped/sun" + key, "must be a positive number with boundary fixed_sun, where the sun is grounded (",
               k_su, ")");

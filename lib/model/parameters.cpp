@@ -515,7 +515,7 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
 
   const GyroscopicForm form = gyroscopic_form(stage.boundary, options.gyroscopic);
   const double direction = stage.runs_backward() ? -1.0 : 1.0;
-  // A carrier that drives round a held sun turns against the sun's torque, its meshes forward.
+  // A carrier that drives round a held sun rotates against the sun's torque, its meshes forward.
   const double carrier = (stage.boundary == gear::Boundary::fixed_sun ? -direction : direction) *
                          gear::speeds(stage, mesh_frequency).carrier;
   p.carrier_speed = form.on ? carrier / scales.omega_sn : 0.0;
