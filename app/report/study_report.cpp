@@ -356,6 +356,8 @@ class StudyReport {
   static std::string boundary_words(gear::Boundary boundary) {
     if (boundary == gear::Boundary::pair) return "none: a lone pair of gears";
     if (boundary == gear::Boundary::as_printed) return "as printed (the equations as the paper prints them)";
+    if (boundary == gear::Boundary::fixed_sun) return "fixed sun";
+    if (boundary == gear::Boundary::free) return "free (no member is held)";
     return boundary == gear::Boundary::star ? "star (the carrier is held)" : "fixed ring";
   }
 

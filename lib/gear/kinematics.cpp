@@ -23,23 +23,39 @@ Speeds speeds(const Stage& stage, double mesh_frequency) {
   if (stage.is_pair()) return {mesh_frequency / z_s, 0.0};
   const double z_r = teeth(stage.ring.teeth, "ring");
   if (stage.boundary == Boundary::star) return {mesh_frequency / z_s, 0.0};
+  if (stage.boundary == Boundary::fixed_sun) return {0.0, mesh_frequency / z_s};
+  if (stage.boundary == Boundary::free) {
+    const double ratio = stage.carrier_to_sun_speed.value();
+    const double sun = mesh_frequency / (z_s * (1.0 - ratio));
+    return {sun, ratio * sun};
+  }
   const double carrier = mesh_frequency / z_r;
   return {carrier * (z_s + z_r) / z_s, carrier};
 }
 
 Torques torques(const Stage& stage, double mesh_frequency) {
-  const double drive = stage.load.power_kW ? *stage.load.power_kW * 1e3 / speeds(stage, mesh_frequency).sun
-                                           : std::abs(stage.load.torque_Nm.value());
+  const bool held_sun = stage.boundary == Boundary::fixed_sun;
+  const double ratio = stage.is_pair() ? 0.0 : teeth(stage.ring.teeth, "ring") / teeth(stage.sun.teeth, "sun");
+  const auto of_power = [&](double watt) {
+    const Speeds w = speeds(stage, mesh_frequency);
+    return held_sun ? watt / (w.carrier * (1.0 + ratio)) : watt / w.sun;
+  };
+  const double drive =
+      stage.load.power_kW ? of_power(*stage.load.power_kW * 1e3) : std::abs(stage.load.torque_Nm.value());
   if (stage.is_pair()) return {drive, 0.0, 0.0};
-  const double ratio = teeth(stage.ring.teeth, "ring") / teeth(stage.sun.teeth, "sun");
   if (stage.boundary == Boundary::star) return {drive, ratio * drive, 0.0};
-  return {drive, 0.0, (1.0 + ratio) * drive};
+  const bool has_ring_torque = held_sun || stage.boundary == Boundary::free;
+  return {drive, has_ring_torque ? ratio * drive : 0.0, (1.0 + ratio) * drive};
 }
 
 double planet_centrifugal_force(const Stage& stage, double mesh_frequency) {
+  return planet_centrifugal_force(stage, mesh_frequency, stage.planet.mass_kg);
+}
+
+double planet_centrifugal_force(const Stage& stage, double mesh_frequency, double mass_kg) {
   const double carrier = speeds(stage, mesh_frequency).carrier;
   if (carrier == 0.0) return 0.0;
-  return stage.planet.mass_kg * carrier * carrier * stage.centre_distance_mm.value() * 1e-3;
+  return mass_kg * carrier * carrier * stage.centre_distance_mm.value() * 1e-3;
 }
 
 PressureAngles pressure_angles(const Stage& stage) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <numbers>
+#include <numeric>
 #include <span>
+#include <utility>
 
 #include "gear/messages.hpp"
 #include "gear/reversal.hpp"
@@ -199,6 +201,24 @@ void check_finite_support(Problems& out, const std::string& pointer, double stif
   if (!std::isfinite(stiffness)) out.add(pointer, "\"rigid\" is for modes only; time integration needs a number");
 }
 
+const char* boundary_name(Boundary boundary) {
+  switch (boundary) {
+    case Boundary::as_printed:
+      return "as_printed";
+    case Boundary::star:
+      return "star";
+    case Boundary::fixed_sun:
+      return "fixed_sun";
+    case Boundary::free:
+      return "free";
+    case Boundary::pair:
+      return "pair";
+    case Boundary::fixed_ring:
+      break;
+  }
+  return "fixed_ring";
+}
+
 /// Which torsional supports each boundary allows (docs/theory/model.md, section 4).
 void check_torsion(Problems& out, const Stage& s) {
   const std::string key = "/torsional_support_N_per_m";
@@ -206,9 +226,22 @@ void check_torsion(Problems& out, const Stage& s) {
   const double k_ru = s.ring.torsional_support_N_per_m;
   const double k_cu = s.carrier.torsional_support_N_per_m;
   if (s.planet.torsional_support_N_per_m) out.add("/lumped/planet" + key, "is of gear 2 of a pair; planets have none");
-  const char* name = s.boundary == Boundary::as_printed ? "as_printed"
-                     : s.boundary == Boundary::star     ? "star"
-                                                        : "fixed_ring";
+  const char* name = boundary_name(s.boundary);
+  const auto must_rotate = [&](const char* member, double k) {
+    if (k != 0.0)
+      out.add(std::string("/lumped/") + member + key, "must be 0 with boundary ", name, ", where the ", member,
+              " is free (", k, ")");
+  };
+  if (s.boundary == Boundary::fixed_sun || s.boundary == Boundary::free) {
+    must_rotate("ring", k_ru);
+    must_rotate("carrier", k_cu);
+    if (s.boundary == Boundary::free)
+      must_rotate("sun", k_su);
+    else if (!(k_su > 0.0) || !std::isfinite(k_su))
+      out.add("/lumped/sun" + key, "must be a positive number with boundary fixed_sun, where the sun is grounded (",
+              k_su, ")");
+    return;
+  }
   if (k_su != 0.0)
     out.add("/lumped/sun" + key, "must be 0 with boundary ", name, ", where the sun is driven (", k_su, ")");
   if (s.boundary == Boundary::fixed_ring) {
@@ -228,13 +261,55 @@ void check_torsion(Problems& out, const Stage& s) {
 
 /// Power enters through the sun or through the other member that is not held.
 void check_driver(Problems& out, const Stage& s) {
+  if (s.boundary == Boundary::fixed_sun) {
+    if (s.driver == Driver::sun)
+      out.add("/driver", "must be carrier or ring with boundary fixed_sun, where the sun is held");
+    return;
+  }
   if (s.driver == Driver::sun) return;
   const bool carrier = s.driver == Driver::carrier;
+  if (s.boundary == Boundary::free) {
+    if (!carrier) out.add("/driver", "must be sun or carrier with boundary free");
+    return;
+  }
   if (s.boundary == Boundary::as_printed)
     out.add("/driver", "must be sun with boundary as_printed, whose equations have no other drive");
   else if (carrier != (s.boundary == Boundary::fixed_ring))
     out.add("/driver", carrier ? "must be sun or ring with boundary star, where the carrier is held"
                                : "must be sun or carrier with boundary fixed_ring, where the ring is held");
+}
+
+/// The speeds of a differential.
+void check_speed_ratio(Problems& out, const Stage& s) {
+  const std::string key = "/carrier_to_sun_speed";
+  if (s.carrier_to_sun_speed.has_value() != (s.boundary == Boundary::free))
+    out.add(key, s.carrier_to_sun_speed ? "is for boundary free only" : "is missing; boundary free needs it");
+  if (s.boundary == Boundary::free && s.load.power_kW)
+    out.add("/load/power_kW", "is shared by three members with boundary free; give torque_Nm");
+}
+
+/// Errors that repeat with the rotation of a member.
+void check_shaft_errors(Problems& out, const Stage& s) {
+  const auto phase_needs_amount = [&](const std::string& place, bool phase, bool amount) {
+    if (phase && !amount) out.add(place + "/eccentricity_phase_deg", "needs eccentricity_um");
+  };
+  for (const auto& [place, member] : {std::pair("/lumped/sun", &s.sun), std::pair("/lumped/ring", &s.ring),
+                                      std::pair("/lumped/carrier", &s.carrier)}) {
+    const ShaftErrors& e = member->errors;
+    phase_needs_amount(place, e.eccentricity_phase_deg.has_value(), e.eccentricity_um.has_value());
+    if (e.pitch_error_um && member->teeth && static_cast<int>(e.pitch_error_um->size()) != *member->teeth)
+      out.add(std::string(place) + "/pitch_error_um", "has ", static_cast<double>(e.pitch_error_um->size()),
+              " numbers; one for each of ", static_cast<double>(*member->teeth), " teeth is needed");
+  }
+  const std::string planet = "/lumped/planet";
+  phase_needs_amount(planet, s.planet.eccentricity_phase_deg.has_value(), s.planet.eccentricity_um.has_value());
+  if (s.planet.eccentricity_um)
+    check_per_planet(out, planet + "/eccentricity_um", *s.planet.eccentricity_um, s.planet_count);
+  if (s.planet.eccentricity_phase_deg)
+    check_per_planet(out, planet + "/eccentricity_phase_deg", *s.planet.eccentricity_phase_deg, s.planet_count);
+  if (s.sun.teeth && s.planet.teeth && (s.ring.teeth || s.is_pair()) && s.mesh_periods() > mesh_periods_max)
+    out.add("/lumped", "errors of several shafts repeat after more than ", static_cast<double>(mesh_periods_max),
+            " mesh periods, the least common multiple of the teeth; give the errors of fewer members at once");
 }
 
 void check_compatibility(Problems& out, const Stage& s) {
@@ -260,7 +335,7 @@ void check_mesh_for_dynamics(Problems& out, const std::string& pointer, const Me
 }
 
 /// A member of which nothing is given.
-bool is_absent(const CentralMember& m) { return m.mass_kg == 0.0 && m.inertia_over_r2_kg == 0.0; }
+bool is_absent(const CentralMember& m) { return m.mass_kg == 0.0 && m.inertia_over_r2_kg == 0.0 && !m.errors.repeat(); }
 
 /// Members and meshes of a planetary stage beside sun and planets.
 void check_stage_members(Problems& out, const Stage& s) {
@@ -308,12 +383,45 @@ void check_torque_harmonics(Problems& out, const Stage& s) {
     if (ratios && !s.is_pair()) out.add(key, "is for boundary pair only");
 }
 
+/// Each number of the planets; the pointer is that of the planet if there are several.
+template <class Check>
+void for_each_planet(const std::string& pointer, const PerPlanet& values, const Check& check) {
+  const std::vector<double>& all = values.values();
+  for (std::size_t i = 0; i < all.size(); ++i)
+    check(all.size() == 1 ? pointer : pointer + "/" + std::to_string(i), all[i]);
+}
+
+/// Masses, inertias and bearings of the planets.
+void check_planets(Problems& out, const Stage& s) {
+  const std::string place = "/lumped/planet/";
+  for (const auto& [key, values] :
+       {std::pair("mass_kg", &s.planet.mass_kg), std::pair("inertia_over_r2_kg", &s.planet.inertia_over_r2_kg),
+        std::pair("bearing_N_per_m", &s.planet.bearing_N_per_m)})
+    check_per_planet(out, place + key, values->values(), s.planet_count);
+  const auto positive = [&](const std::string& pointer, double value) { check_positive(out, pointer, value); };
+  for_each_planet(place + "mass_kg", s.planet.mass_kg, positive);
+  for_each_planet(place + "inertia_over_r2_kg", s.planet.inertia_over_r2_kg, positive);
+  for_each_planet(place + "bearing_N_per_m", s.planet.bearing_N_per_m,
+                  [&](const std::string& pointer, double value) { check_support(out, pointer, value); });
+}
+
 /// What else is wrong cannot be said of another number of planets.
 bool has_allowed_count(const Stage& s) {
   return s.is_pair() ? s.planet_count == 1 : s.planet_count >= planets_min && s.planet_count <= planets_max;
 }
 
 }  // namespace
+
+int Stage::mesh_periods() const {
+  int periods = 1;
+  const auto repeats = [&](bool has_errors, const std::optional<int>& teeth) {
+    if (has_errors) periods = std::min(std::lcm(periods, teeth.value_or(1)), mesh_periods_max + 1);
+  };
+  repeats(sun.errors.repeat(), sun.teeth);
+  repeats(planet.eccentricity_um.has_value(), planet.teeth);
+  repeats(ring.errors.repeat(), ring.teeth);
+  return periods;
+}
 
 std::vector<double> Stage::planet_angles_deg() const {
   if (!angles_deg.empty()) return angles_deg;
@@ -358,9 +466,7 @@ std::vector<std::string> problems_for_modes(const Stage& s) {
   }
   check_angles(out, s);
   check_member(out, "/lumped/sun", s.sun);
-  check_positive(out, "/lumped/planet/mass_kg", s.planet.mass_kg);
-  check_positive(out, "/lumped/planet/inertia_over_r2_kg", s.planet.inertia_over_r2_kg);
-  check_support(out, "/lumped/planet/bearing_N_per_m", s.planet.bearing_N_per_m);
+  check_planets(out, s);
   check_positive(out, "/lumped/sun_planet_mesh/stiffness_N_per_m", s.sun_planet_mesh.stiffness_N_per_m);
   check_pressure_angle(out, "/lumped/sun_planet_mesh", s.sun_planet_mesh,
                        sum(s.sun.base_radius_mm, s.planet.base_radius_mm, 1.0), s.centre_distance_mm);
@@ -385,8 +491,10 @@ std::vector<std::string> problems_for_dynamics(const Stage& s) {
     check_finite_support(out, "/lumped/carrier/support_N_per_m", s.carrier.support_N_per_m);
     check_finite_support(out, "/lumped/planet/bearing_N_per_m", s.planet.bearing_N_per_m);
   }
-  if (!(s.planet.bearing_N_per_m > 0.0))
-    out.add("/lumped/planet/bearing_N_per_m", "must be positive (", s.planet.bearing_N_per_m, ")");
+  for_each_planet("/lumped/planet/bearing_N_per_m", s.planet.bearing_N_per_m,
+                  [&](const std::string& pointer, double value) {
+                    if (!(value > 0.0)) out.add(pointer, "must be positive (", value, ")");
+                  });
   if (s.is_pair()) {
     check_pair_supports(out, s);
   } else {
@@ -394,6 +502,8 @@ std::vector<std::string> problems_for_dynamics(const Stage& s) {
     check_driver(out, s);
   }
   check_torque_harmonics(out, s);
+  check_speed_ratio(out, s);
+  check_shaft_errors(out, s);
   check_compatibility(out, s);
   const struct {
     const char* pointer;

@@ -17,6 +17,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/interpolation.hpp"
@@ -29,6 +30,9 @@ inline constexpr int planets_min = 2;
 inline constexpr int planets_max = 6;
 inline constexpr std::size_t harmonics_max = 64;
 
+/// Longest common period of shafts' errors that is integrated.
+inline constexpr int mesh_periods_max = 4096;
+
 /// The stiffness of a support that does not yield.
 inline constexpr double rigid = std::numeric_limits<double>::infinity();
 
@@ -38,6 +42,8 @@ enum class Boundary {
                ///< carrier
   fixed_ring,  ///< ring grounded through k_ru, carrier is the free output
   star,        ///< carrier grounded through k_cu, ring is the free output
+  fixed_sun,   ///< sun grounded through k_su, carrier and ring are in and out
+  free,        ///< nothing grounded: a differential, whose speeds are in a given ratio
   pair,        ///< no stage but a lone pair: gear 1 in the place of the sun, gear 2 in that of the only planet
 };
 
@@ -57,6 +63,35 @@ struct SupportDamping {
   }
 };
 
+/// A number of planets: one for all of them, or one for each. In place of a number it is the mean.
+class PerPlanet {
+ public:
+  PerPlanet() = default;
+  PerPlanet(double of_all) : values_{of_all} {}  // NOLINT(google-explicit-constructor): the usual case
+  PerPlanet(std::vector<double> values) : values_(std::move(values)) {}  // NOLINT(google-explicit-constructor)
+
+  [[nodiscard]] double operator[](std::size_t planet) const { return values_.size() == 1 ? values_[0] : values_[planet]; }
+  [[nodiscard]] const std::vector<double>& values() const { return values_; }
+  operator double() const {  // NOLINT(google-explicit-constructor)
+    double apart = 0.0;
+    for (std::size_t i = 1; i < values_.size(); ++i) apart += values_[i] - values_[0];
+    return values_[0] + apart / static_cast<double>(values_.size());
+  }
+
+ private:
+  std::vector<double> values_ = {0.0};
+};
+
+/// Errors of a member that repeat with its rotation relative to the carrier [M-shaft].
+struct ShaftErrors {
+  std::optional<double> eccentricity_um{};         ///< centre of the teeth beside the axis of rotation [um]
+  std::optional<double> eccentricity_phase_deg{};  ///< its direction at s = 0, as planet angles are measured [deg]
+  /// Cumulative pitch error of each tooth, in the order of rising angles: what it takes from the deflection [um].
+  std::optional<std::vector<double>> pitch_error_um{};
+
+  [[nodiscard]] bool repeat() const { return eccentricity_um || pitch_error_um; }
+};
+
 /// A central member: sun, ring or carrier.
 struct CentralMember {
   double mass_kg = 0;
@@ -66,6 +101,7 @@ struct CentralMember {
   SupportDamping damping;
   std::optional<int> teeth;              ///< none for the carrier
   std::optional<double> base_radius_mm;  ///< none for the carrier
+  ShaftErrors errors{};
 };
 
 /// How the sun's bearing answers the sun's displacement (docs/theory/model.md, section 2).
@@ -91,9 +127,9 @@ struct SunBearing {
 };
 
 struct Planet {
-  double mass_kg = 0;
-  double inertia_over_r2_kg = 0;
-  double bearing_N_per_m = 0;  ///< k_pix = k_piy = k_picu; `rigid` in modes and of a pair
+  PerPlanet mass_kg;
+  PerPlanet inertia_over_r2_kg;
+  PerPlanet bearing_N_per_m;  ///< k_pix = k_piy = k_picu; `rigid` in modes and of a pair
   SupportDamping damping;
   std::optional<int> teeth;
   std::optional<double> base_radius_mm;
@@ -101,6 +137,8 @@ struct Planet {
   /// radial: outward.
   std::optional<std::vector<double>> pin_error_tangential_um{}, pin_error_radial_um{};
   std::optional<double> torsional_support_N_per_m{};  ///< of gear 2 of a pair, on its base radius [N/m]
+  /// As those of ShaftErrors, one number or one per planet; the direction is relative to the planet's own radius.
+  std::optional<std::vector<double>> eccentricity_um{}, eccentricity_phase_deg{};
 };
 
 /// Friction over phase = s / 2 pi on the common s of planet 1, in [0, 1), rising; smooth between breakpoints.
@@ -190,6 +228,7 @@ struct Stage {
   std::string name;
   Boundary boundary = Boundary::fixed_ring;
   Driver driver = Driver::sun;
+  std::optional<double> carrier_to_sun_speed{};  ///< omega_c / omega_s of Boundary::free [-]
   int planet_count = 3;
   std::vector<double> angles_deg;            ///< phi_i; empty: equally spaced from 0
   std::optional<double> centre_distance_mm;  ///< r_c
@@ -203,14 +242,25 @@ struct Stage {
 
   [[nodiscard]] bool is_pair() const { return boundary == Boundary::pair; }
 
+  /// Is the carrier free in rotation, so that rotations are measured from it?
+  [[nodiscard]] bool has_free_carrier() const {
+    return boundary == Boundary::fixed_ring || boundary == Boundary::fixed_sun || boundary == Boundary::free;
+  }
+
   /// phi_i [deg], i = 0 .. N-1: as given, or equally spaced from 0.
   [[nodiscard]] std::vector<double> planet_angles_deg() const;
 
   /// The same in the direction of the torque on the sun, in which the model measures all angles and rotations [deg].
   [[nodiscard]] std::vector<double> angles_along_torque_deg() const;
 
-  /// Does the sun rotate against its torque, so that the meshes run backward [gear/reversal.hpp]?
-  [[nodiscard]] bool runs_backward() const { return driver != Driver::sun; }
+  /// Does the sun rotate against its torque, as seen from the carrier, so that the meshes run backward
+  /// [gear/reversal.hpp]? If the sun is held, this is the case with the ring as the driver.
+  [[nodiscard]] bool runs_backward() const {
+    return boundary == Boundary::fixed_sun ? driver == Driver::ring : driver != Driver::sun;
+  }
+
+  /// Mesh periods after which the errors of all shafts repeat; 1 without such errors. At most mesh_periods_max + 1.
+  [[nodiscard]] int mesh_periods() const;
 };
 
 /// The angle next to `angle_deg` at which a planet fits the teeth of sun and ring, if one fits them at `first_deg`:

@@ -445,10 +445,11 @@ std::vector<Warning> catalogue_warnings(const GearSet& set, const Stage& stage) 
 std::vector<Warning> mass_warnings(const Stage& s) {
   Warnings out;
   if (!s.catalogue && !s.is_pair())
-    for (const auto& [name, mass, inertia] : {std::tuple("sun", s.sun.mass_kg, s.sun.inertia_over_r2_kg),
-                                              std::tuple("planet", s.planet.mass_kg, s.planet.inertia_over_r2_kg),
-                                              std::tuple("ring", s.ring.mass_kg, s.ring.inertia_over_r2_kg),
-                                              std::tuple("carrier", s.carrier.mass_kg, s.carrier.inertia_over_r2_kg)})
+    for (const auto& [name, mass, inertia] :
+         {std::tuple("sun", s.sun.mass_kg, s.sun.inertia_over_r2_kg),
+          std::tuple("planet", double{s.planet.mass_kg}, double{s.planet.inertia_over_r2_kg}),
+          std::tuple("ring", s.ring.mass_kg, s.ring.inertia_over_r2_kg),
+          std::tuple("carrier", s.carrier.mass_kg, s.carrier.inertia_over_r2_kg)})
       check_member(out, name, mass, inertia, 0.0, std::nullopt);
   return out.take();
 }
@@ -477,6 +478,9 @@ std::vector<Warning> warnings_for_dynamics(const Stage& s) {
   Warnings out;
   check_assembly(out, s);
   check_damping(out, "/lumped/sun", s.sun.support_N_per_m, s.sun.mass_kg, s.sun.damping);
+  if (s.planet_count == 2 && s.sun.support_N_per_m == 0.0)
+    out.add(Rank::doubtful, 1.0, "/lumped/sun/support_N_per_m", "floating sun",
+            "is 0 with two planets: nothing holds the sun across them, and it drifts away");
   if (!s.is_pair()) {
     check_damping(out, "/lumped/ring", s.ring.support_N_per_m, s.ring.mass_kg, s.ring.damping);
     check_damping(out, "/lumped/carrier", s.carrier.support_N_per_m, s.carrier.mass_kg, s.carrier.damping);
@@ -495,8 +499,9 @@ std::vector<Warning> warnings_at(const Stage& s, double mesh_frequency, const Ge
   const double density = s.catalogue ? s.catalogue->material.density_kg_per_m3 : Material{}.density_kg_per_m3;
   const Speeds w = speeds(s, mesh_frequency);
   check_speed(out, "/lumped/sun", "its teeth", w.sun, *s.sun.base_radius_mm, density);
-  check_speed(out, "/lumped/planet", "its teeth", w.carrier - mesh_frequency / *s.planet.teeth,
-              *s.planet.base_radius_mm, density);
+  const double carrier = s.boundary == Boundary::fixed_sun ? -w.carrier : w.carrier;
+  check_speed(out, "/lumped/planet", "its teeth", carrier - mesh_frequency / *s.planet.teeth, *s.planet.base_radius_mm,
+              density);
   if (!s.is_pair()) check_speed(out, "/lumped/carrier", "the planets' axes", w.carrier, *s.centre_distance_mm, density);
 
   const MeshLoad load = mean_mesh_load(s, mesh_frequency);
@@ -519,6 +524,9 @@ std::vector<Warning> warnings_at(const Stage& s, double mesh_frequency, const Ge
   if (s.boundary == Boundary::fixed_ring && std::isfinite(s.ring.torsional_support_N_per_m))
     check_deflection(out, "/lumped/ring/torsional_support_N_per_m", "the ring's torsional support",
                      s.planet_count * load.force_N, s.ring.torsional_support_N_per_m, module);
+  if (s.boundary == Boundary::fixed_sun)
+    check_deflection(out, "/lumped/sun/torsional_support_N_per_m", "the sun's torsional support",
+                     s.planet_count * load.force_N, s.sun.torsional_support_N_per_m, module);
   if (s.boundary == Boundary::star)
     check_deflection(out, "/lumped/carrier/torsional_support_N_per_m", "the carrier's torsional support",
                      s.planet_count * load.force_N * (std::cos(alpha.sun_planet) + std::cos(alpha.ring_planet)),

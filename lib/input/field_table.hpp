@@ -291,6 +291,35 @@ Format<std::vector<std::string>> texts_format(std::size_t size_max);
 Format<std::vector<double>> numbers_format(std::string_view key, const Bounds& bounds, std::size_t size_min,
                                            std::size_t size_max);
 Format<std::vector<double>> number_or_numbers_format(std::string_view key, const Bounds& bounds, std::size_t size_max);
+/// Of a class that is made of one number or several, values(), as gear::PerPlanet is.
+template <class V>
+Format<V> values_format(Format<std::vector<double>> numbers) {
+  return {[read = numbers.read](const json& value, const std::string& pointer,
+                                ReadContext& context) -> std::optional<V> {
+            if (auto read_numbers = read(value, pointer, context)) return V(std::move(*read_numbers));
+            return std::nullopt;
+          },
+          [write = numbers.write](const V& value) { return write(value.values()); }, numbers.schema};
+}
+/// The same, or "rigid" in place of one number.
+template <class V>
+Format<V> values_or_rigid_format(std::string_view key, const Bounds& bounds, std::size_t size_max) {
+  const Format<double> rigid = number_or_rigid_format(key, bounds);
+  const Format<V> numbers = values_format<V>(number_or_numbers_format(key, bounds, size_max));
+  return {[rigid, numbers](const json& value, const std::string& pointer, ReadContext& context) -> std::optional<V> {
+            if (value.is_array()) return numbers.read(value, pointer, context);
+            if (const auto one = rigid.read(value, pointer, context)) return V(*one);
+            return std::nullopt;
+          },
+          [rigid, numbers](const V& value) {
+            return value.values().size() == 1 ? rigid.write(value.values()[0]) : numbers.write(value);
+          },
+          [rigid, bounds, size_max] {
+            ordered_json schema = rigid.schema();
+            schema["anyOf"].push_back(numbers_schema(bounds, 1, size_max));
+            return schema;
+          }};
+}
 /// Of places in a list of names.
 Format<std::size_t> name_format(const std::vector<std::string>& names);
 Format<std::vector<std::size_t>> names_format(const std::vector<std::string>& names);
@@ -550,6 +579,24 @@ class Table : public AnyTable {
                               std::string_view description) {
     return leaf(key, table_detail::access<T>(member), table_detail::number_or_numbers_format(key, bounds, size_max),
                 description);
+  }
+
+  /// The same in a class of its own, such as gear::PerPlanet.
+  template <class F>
+  AnyField& values(std::string_view key, F member, Bounds bounds, std::size_t size_max, std::string_view description) {
+    const auto at = table_detail::access<T>(member);
+    using V = decltype(table_detail::plain_member(at));
+    return leaf(key, at, table_detail::values_format<V>(table_detail::number_or_numbers_format(key, bounds, size_max)),
+                description);
+  }
+
+  /// The same, or the string "rigid".
+  template <class F>
+  AnyField& values_or_rigid(std::string_view key, F member, Bounds bounds, std::size_t size_max,
+                            std::string_view description) {
+    const auto at = table_detail::access<T>(member);
+    using V = decltype(table_detail::plain_member(at));
+    return leaf(key, at, table_detail::values_or_rigid_format<V>(key, bounds, size_max), description);
   }
 
   /// An object of its own; left out when written, if nothing in it is set.

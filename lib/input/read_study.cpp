@@ -5,6 +5,7 @@
 
 #include "input/pointers.hpp"
 #include "input/stage_completion.hpp"
+#include "input/study_kind.hpp"
 
 namespace epicyclic::input {
 
@@ -60,6 +61,11 @@ bool judge_stage(const Study& study, const std::string& root, F not_computed, Re
   if (study.has_dynamics()) {
     const auto more = gear::problems_for_dynamics(study.stage);
     rules.insert(rules.end(), more.begin(), more.end());
+    if (rules.empty() && study.stage.mesh_periods() > 1 && !study.plan.kind()->with_shaft_errors)
+      rules.push_back(
+          "/lumped: eccentricities and pitch errors repeat after " + std::to_string(study.stage.mesh_periods()) +
+          " mesh periods; sections once per mesh period do not see whether such a response repeats; only the "
+          "kind \"run\" computes them");
   }
   const Judge judge(std::move(unread));
   std::set<std::string> reported;

@@ -1,6 +1,7 @@
 #include "input/speed_aliases.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "gear/kinematics.hpp"
@@ -15,7 +16,7 @@ const std::array<SpeedAlias, 3>& speed_aliases() {
       {studies::speed_keys[0], &GivenSpeed::sun_speed_rpm,
        [](const Stage& stage) { return gear::rpm * gear::speeds(stage, 1.0).sun; }},
       {studies::speed_keys[1], &GivenSpeed::carrier_speed_rpm,
-       [](const Stage& stage) { return gear::rpm * gear::speeds(stage, 1.0).carrier; }},
+       [](const Stage& stage) { return gear::rpm * std::abs(gear::speeds(stage, 1.0).carrier); }},
       {studies::speed_keys[2], &GivenSpeed::mesh_frequency_Hz,
        [](const Stage& /*stage*/) { return 0.5 / std::numbers::pi; }},
   }};

@@ -78,6 +78,8 @@ struct StudyKind {
   void (*name_speeds)(Study& study) = nullptr;
   /// The method of integration, if it is not that of "integrator".
   const std::string& (*method)(const std::any& options) = nullptr;
+  /// Does it compute stages whose shafts have errors, whose common period has many mesh periods?
+  bool with_shaft_errors = false;
   /// Does "operation" give the speed of the study, if no axis is the speed?
   bool at_given_speed = true;
 

@@ -92,18 +92,19 @@ void add_damping(Table<T>& table, F damping) {
 
 template <class T, class F>
 void add_body(Table<T>& table, F body, const std::string& radius) {
-  table
-      .number("mass_kg",
-              chain(
-                  body, [](auto& b) -> auto& { return b.mass_kg; }),
-              mass, "Mass [kg].")
-      .required();
-  table
-      .number("inertia_over_r2_kg",
-              chain(
-                  body, [](auto& b) -> auto& { return b.inertia_over_r2_kg; }),
-              mass, "Moment of inertia over the square of the " + radius + " [kg].")
-      .required();
+  const auto weight = chain(
+      body, [](auto& b) -> auto& { return b.mass_kg; });
+  const auto inertia = chain(
+      body, [](auto& b) -> auto& { return b.inertia_over_r2_kg; });
+  const std::string of_inertia = "Moment of inertia over the square of the " + radius + " [kg]";
+  if constexpr (std::is_same_v<T, Planet>) {
+    const std::string each = ": one number, or one per planet.";
+    table.values("mass_kg", weight, mass, gear::planets_max, "Mass [kg]" + each).required();
+    table.values("inertia_over_r2_kg", inertia, mass, gear::planets_max, of_inertia + each).required();
+  } else {
+    table.number("mass_kg", weight, mass, "Mass [kg].").required();
+    table.number("inertia_over_r2_kg", inertia, mass, of_inertia + ".").required();
+  }
   add_damping(table, chain(
                          body, [](auto& b) -> auto& { return b.damping; }));
 }
@@ -118,6 +119,16 @@ void add_gear(Table<T>& table, F body) {
                chain(
                    body, [](auto& b) -> auto& { return b.base_radius_mm; }),
                length, "Radius of the base circle [mm]; needed for time integration.");
+}
+
+template <class T, class F>
+void add_pitch_errors(Table<T>& table, F member) {
+  table.numbers("pitch_error_um",
+                chain(
+                    member, [](auto& m) -> auto& { return m.errors.pitch_error_um; }),
+                signed_error, 3, 10000,
+                "Cumulative pitch error of each tooth, towards rising angles from the tooth at planet 1 at the mesh "
+                "phase 0; positive: the tooth bears less [um].");
 }
 
 template <class T, class F>
@@ -137,6 +148,17 @@ void add_central(Table<T>& table, F member, const std::string& radius) {
                         support,
                         "Stiffness of the torsional support, referred to the " + radius +
                             " [N/m], or \"rigid\" (modes; for the ring also in time integration).");
+  const auto errors = chain(
+      member, [](auto& m) -> auto& { return m.errors; });
+  table.number("eccentricity_um",
+               chain(
+                   errors, [](auto& e) -> auto& { return e.eccentricity_um; }),
+               gap, "Distance from the axis of rotation to the centre of the teeth or pins, half of the run-out [um].");
+  table.number("eccentricity_phase_deg",
+               chain(
+                   errors, [](auto& e) -> auto& { return e.eccentricity_phase_deg; }),
+               between(-largest_angle_deg, largest_angle_deg),
+               "Direction of the eccentricity at the mesh phase 0, as planet angles are measured [deg].");
 }
 
 const Table<gear::SunBearing>& bearing_table() {
@@ -165,6 +187,7 @@ const Table<Stage>& sun_table() {
     const auto sun = [](auto& s) -> auto& { return s.sun; };
     add_central(t, sun, "base radius");
     add_gear(t, sun);
+    add_pitch_errors(t, sun);
     t.number(
         "bearing_clearance_half_um", [](auto& s) -> auto& { return s.sun_bearing.clearance_half_um; }, gap,
         "Half the clearance of the bearing [um].");
@@ -179,6 +202,7 @@ const Table<CentralMember>& ring_table() {
     Table<CentralMember> t("ring", "The ring.");
     add_central(t, itself, "base radius");
     add_gear(t, itself);
+    add_pitch_errors(t, itself);
     return t;
   }();
   return table;
@@ -195,12 +219,12 @@ const Table<CentralMember>& carrier_table() {
 
 const Table<Planet>& planet_table() {
   static const auto table = [] {
-    Table<Planet> t("planet", "One planet; all are alike.");
+    Table<Planet> t("planet", "The planets.");
     add_body(t, itself, "base radius");
     add_gear(t, itself);
-    t.number_or_rigid("bearing_N_per_m", &Planet::bearing_N_per_m, support,
-                      "Stiffness of the planet bearing, the same in all directions [N/m], or \"rigid\" (modes, and "
-                      "pairs whose gears only rotate).")
+    t.values_or_rigid("bearing_N_per_m", &Planet::bearing_N_per_m, support, gear::planets_max,
+                      "Stiffness of the planet bearing, the same in all directions [N/m]: one number, one per planet, "
+                      "or \"rigid\" (modes, and pairs whose gears only rotate).")
         .required();
     t.number("torsional_support_N_per_m", &Planet::torsional_support_N_per_m, support,
              "Of gear 2 of a pair: stiffness of the torsional support, referred to the base radius [N/m].");
@@ -209,6 +233,13 @@ const Table<Planet>& planet_table() {
                         "one per planet.");
     t.number_or_numbers("pin_error_radial_um", &Planet::pin_error_radial_um, signed_error, gear::planets_max,
                         "Position error of the pin in the carrier, outward [um]: one number, or one per planet.");
+    t.number_or_numbers("eccentricity_um", &Planet::eccentricity_um, gap, gear::planets_max,
+                        "Distance from the planet's axis to the centre of its teeth, half of the run-out [um]: one "
+                        "number, or one per planet.");
+    t.number_or_numbers("eccentricity_phase_deg", &Planet::eccentricity_phase_deg,
+                        between(-largest_angle_deg, largest_angle_deg), gear::planets_max,
+                        "Direction of the eccentricity at the mesh phase 0, from the planet's own radius [deg]: one "
+                        "number, or one per planet.");
     return t;
   }();
   return table;
@@ -562,14 +593,19 @@ const Table<Stage>& stage_table() {
              std::vector<std::pair<std::string, gear::Boundary>>{{"as_printed", gear::Boundary::as_printed},
                                                                  {"fixed_ring", gear::Boundary::fixed_ring},
                                                                  {"star", gear::Boundary::star},
+                                                                 {"fixed_sun", gear::Boundary::fixed_sun},
+                                                                 {"free", gear::Boundary::free},
                                                                  {"pair", gear::Boundary::pair}},
-             "Member that is held: the ring, the carrier (star), or neither, as in the printed equations of Tang et "
-             "al. (`as_printed`). `pair` is a lone pair: `sun` is gear 1, which drives, `planet` is gear 2.");
+             "Member that is held: the ring, the carrier (`star`), the sun (`fixed_sun`), none (`free`), or none as "
+             "in the printed equations of Tang et al. (`as_printed`). `pair` is a lone pair: `sun` is gear 1, which "
+             "drives, `planet` is gear 2.");
     t.choice("driver", &Stage::driver,
              std::vector<std::pair<std::string, gear::Driver>>{
                  {"sun", gear::Driver::sun}, {"carrier", gear::Driver::carrier}, {"ring", gear::Driver::ring}},
-             "Member through which power enters. With carrier or ring the stage increases the speed: the sun "
-             "rotates against its torque.");
+             "Member through which power enters. With carrier or ring the sun rotates against its torque. With "
+             "boundary `fixed_sun` it is the carrier or the ring.");
+    t.number("carrier_to_sun_speed", &Stage::carrier_to_sun_speed, between(-100, 0.99),
+             "Speed of the carrier over that of the sun with boundary `free` [-].");
     t.object("planets", itself, planets_table()).required();
     t.object("load", &Stage::load, load_table());
     t.object("catalogue", present(&Stage::catalogue), catalogue_table());

@@ -37,10 +37,9 @@ std::vector<ContactSurface> contact_surfaces(const DynamicModel& model) {
 }
 
 std::size_t segment_at(const std::vector<double>& breakpoints, double s) {
-  std::size_t segment = breakpoints.empty() ? 0 : breakpoints.size() - 1;
-  for (std::size_t k = 0; k < breakpoints.size(); ++k)
-    if (s >= breakpoints[k]) segment = k;
-  return segment;
+  const auto next = std::upper_bound(breakpoints.begin(), breakpoints.end(), s);
+  if (next == breakpoints.begin()) return breakpoints.empty() ? 0 : breakpoints.size() - 1;
+  return static_cast<std::size_t>(next - breakpoints.begin()) - 1;
 }
 
 namespace {
@@ -53,7 +52,7 @@ bool planets_alike(const Parameters<double, N>& p) {
     return std::all_of(row.begin(), row.end(), [&](double x) { return std::abs(x - row[0]) <= rounding; });
   };
   const auto mesh_alike = [&](const MeshParameters<double, N>& mesh) {
-    bool alike = mesh.in_phase;
+    bool alike = mesh.in_phase && mesh.shafts.empty();
     for (std::size_t h = 0; h < mesh.harmonics; ++h)
       alike = alike && equal(mesh.stiffness_cos[h]) && equal(mesh.stiffness_sin[h]);
     return alike && equal(mesh.error_cos) && equal(mesh.error_sin) && equal(mesh.error_mean);
@@ -68,6 +67,8 @@ bool planets_alike(const Parameters<double, N>& p) {
       const double apart = std::remainder(steps, static_cast<double>(N));
       spaced = spaced && std::abs(steps - std::round(steps)) <= rounding && std::abs(apart) > 0.5;
     }
+  for (const Row<double, N>* row : {&p.mass_p, &p.inertia_p, &p.bearing_p, &p.bearing_damping_p, &p.centrifugal})
+    spaced = spaced && equal(*row);
   return spaced && mesh_alike(p.sun_planet) && mesh_alike(p.ring_planet);
 }
 
@@ -94,7 +95,7 @@ void remove_synchronous(Layout layout, const Parameters<double, N>& p, std::span
 /// Coefficients for deflections alone: without the tables of stiffness and friction.
 template <std::size_t N>
 PhaseCoefficients<double, N> without_tables(const Parameters<double, N>& p, double s) {
-  return {p, HarmonicBasis<double>(sine_cosine(s), harmonics_of(p))};
+  return {p, HarmonicBasis<double>(sine_cosine(s), harmonics_of(p)), s};
 }
 
 template <std::size_t N>
@@ -185,6 +186,14 @@ StageOutputsAt make_stage_outputs(Layout layout, const std::shared_ptr<const Par
   return stage_outputs(layout, p, output_kernel<N, 2>("baseline"));
 }
 
+std::vector<Shaft> shafts_of(const gear::Stage& stage) {
+  std::vector<Shaft> all;
+  if (stage.sun.errors.repeat()) all.push_back({"sun", *stage.sun.teeth});
+  if (stage.planet.eccentricity_um) all.push_back({"planets", *stage.planet.teeth});
+  if (stage.ring.errors.repeat()) all.push_back({"ring", *stage.ring.teeth});
+  return all;
+}
+
 template <std::size_t N>
 DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
                       const ModelOptions& options) {
@@ -193,6 +202,9 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
   const std::shared_ptr<const Parameters<double, N>> p(constants, &constants->parameters);
   DynamicModel m;
   m.planets = static_cast<int>(N);
+  m.period *= p->mesh_periods;
+  m.mesh_periods = p->mesh_periods;
+  m.shafts = shafts_of(stage);
   m.layout = layout;
   m.dimension = 2 * degrees_of_freedom(layout, N);
   m.state_names = coordinate_names(layout, static_cast<int>(N));
@@ -231,7 +243,8 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
     for (const auto* mesh : {&p->sun_planet, &p->ring_planet})
       if (mesh->friction) m.friction_table_error = std::max(m.friction_table_error, mesh->friction->error());
   }
-  m.static_mesh_force = p->drive / static_cast<double>(N);
+  m.static_mesh_force =
+      (stage.boundary == gear::Boundary::fixed_sun ? p->ring_drive : p->drive) / static_cast<double>(N);
   for (std::size_t i = 0; i < N; ++i)
     m.planet_phases.push_back(p->sun_planet.phase_cycles[i] - p->sun_planet.phase_cycles[0]);
   if (N > 1 && planets_alike(*p)) {
@@ -255,7 +268,8 @@ Layout layout_of(const gear::Stage& stage, CoordinateChoice choice) {
     return both ? Layout::pair_torsional_supported : Layout::pair_torsional;
   }
   if (choice == CoordinateChoice::full) return Layout::full;
-  if (stage.boundary != gear::Boundary::fixed_ring) return Layout::relative_to_ring;
+  if (!stage.has_free_carrier()) return Layout::relative_to_ring;
+  if (stage.boundary == gear::Boundary::free) return Layout::relative_to_carrier_rigid_ring;
   return std::isfinite(stage.ring.torsional_support_N_per_m) ? Layout::relative_to_carrier
                                                              : Layout::relative_to_carrier_rigid_ring;
 }
@@ -263,10 +277,10 @@ Layout layout_of(const gear::Stage& stage, CoordinateChoice choice) {
 DynamicModel make_dynamic_model(const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
                                 const ModelOptions& options, CoordinateChoice choice) {
   const bool printed = options.gyroscopic == Gyroscopic::as_printed || options.gyroscopic == Gyroscopic::carrier_row;
-  if (printed && stage.boundary == gear::Boundary::fixed_ring && choice == CoordinateChoice::relative)
+  if (printed && stage.has_free_carrier() && choice == CoordinateChoice::relative)
     throw InputError(
         "/model/gyroscopic: the printed terms do not close in relative coordinates when the carrier is free "
-        "(boundary fixed_ring); use automatic, invariant or off");
+        "(boundary fixed_ring, fixed_sun or free); use automatic, invariant or off");
   return with_planets(stage.planet_count, [&]<std::size_t N>() {
     return assemble<N>(layout_of(stage, choice), stage, scales, mesh_frequency_ratio, options);
   });

@@ -41,6 +41,12 @@ struct StageForces {
   double sun_bearing = 0;              ///< magnitude of bearing and support damping
 };
 
+/// A member whose errors repeat with its rotation relative to the carrier, in as many mesh periods as it has teeth.
+struct Shaft {
+  std::string member;  ///< "sun", "planets", "ring"
+  int teeth = 1;
+};
+
 /// The equations of motion, s the mesh phase, and what else can be said of a state. Switching surfaces are the
 /// contacts, how far each is from being made or lost: contact_distances() of model/right_hand_side.hpp, 4 N + 4 of
 /// them, or 4 N + 1 with a radial bearing law; of a pair 6 or 3. The field jumps there with damping that ends where
@@ -48,7 +54,9 @@ struct StageForces {
 struct DynamicModel : VectorField {
   DynamicModel() { period = 2.0 * std::numbers::pi; }
 
-  int planets = 0;  ///< 1: a pair of gears
+  int planets = 0;       ///< 1: a pair of gears
+  int mesh_periods = 1;  ///< in the period of the field: more than 1 with errors of shafts [M-shaft]
+  std::vector<Shaft> shafts;  ///< with errors [M-shaft]
   Layout layout = Layout::relative_to_ring;
   std::vector<std::string> state_names;  ///< x_s, ..., then x_s_rate, ...
   double sun_planet_half_gap = 0;        ///< b_sp [b_c]
@@ -72,7 +80,7 @@ struct DynamicModel : VectorField {
   std::function<DynamicModel()> with_halved_tables;
   double friction_table_error = 0;  ///< greatest error of the friction's ratios between the rows [-]
 
-  double static_mesh_force = 0;  ///< T_D / (N r_bs) [m_0 omega_sn^2 b_c]
+  double static_mesh_force = 0;  ///< T_D / (N r_bs), of a sun that is held T_r / (N r_br) [m_0 omega_sn^2 b_c]
 
   /// Mesh phase of each planet ahead of that of planet 1, in mesh periods [M-phase]; empty in a model of one's own.
   std::vector<double> planet_phases;
@@ -87,7 +95,7 @@ struct DynamicModel : VectorField {
   /// accelerates).
   std::vector<double> default_start;
 
-  /// Equilibria at mesh phases in [0, 2 pi], a state for each [model/static_equilibrium.hpp]; none where one was not
+  /// Equilibria at mesh phases in [0, period], a state for each [model/static_equilibrium.hpp]; none where one was not
   /// found. Their elastic forces are the quasi-static ones. Empty in a model of one's own.
   std::function<std::vector<std::vector<double>>(std::span<const double> phases)> quasi_static_states;
 
@@ -110,7 +118,7 @@ struct ContactSurface {
 /// In the order of the surfaces.
 [[nodiscard]] std::vector<ContactSurface> contact_surfaces(const DynamicModel& model);
 
-/// The segment of right_hand_side that a phase in [0, 2 pi) lies in.
+/// The segment of right_hand_side that a phase in [0, period) lies in.
 [[nodiscard]] std::size_t segment_at(const std::vector<double>& breakpoints, double s);
 
 /// Rotations relative to the boundary's reference member, or all 3N + 9 with the rigid rotation (for comparisons).

@@ -154,12 +154,15 @@ void LaneParameters<N, W>::check(const Parameters<double, N>& p) const {
     bool alike = m.harmonics == to.harmonics && (m.friction != nullptr) == (to.friction != nullptr) &&
                  (m.stiffness_curve != nullptr) == (to.stiffness_curve != nullptr);
     for (std::size_t i = 0; i < N; ++i) alike = alike && m.phase_cycles[i] == to.phase_cycles[i];
+    alike = alike && m.shafts.size() == to.shafts.size();
+    for (std::size_t k = 0; alike && k < m.shafts.size(); ++k)
+      alike = m.shafts[k].cosine.size() == to.shafts[k].cosine.size();
     return alike;
   };
   if (!mesh_fits(p.sun_planet, own.sun_planet) || !mesh_fits(p.ring_planet, own.ring_planet) ||
       p.sun_law != own.sun_law || p.gyroscopic_relative != own.gyroscopic_relative ||
       p.gyroscopic_carrier_row != own.gyroscopic_carrier_row || p.smooth != own.smooth ||
-      p.gap_damping != own.gap_damping)
+      p.gap_damping != own.gap_damping || p.boundary != own.boundary || p.mesh_periods != own.mesh_periods)
     throw InputError("operating points of different structure cannot run side by side");
 }
 

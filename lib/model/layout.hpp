@@ -7,6 +7,10 @@
 //   carrier   w_s = u_s - u_c (cos alpha_sp + cos alpha_rp) ,  w_pi = u_pi + u_c cos alpha_rp ,
 //             X_i = x_pi + u_c sin phi_i ,  Y_i = y_pi - u_c cos phi_i               `fixed_ring`: 3N + 8
 //   carrier, ring rigid in rotation (u_r = 0)                                        `fixed_ring`: 3N + 7
+//   carrier   w_r = u_r - u_c (cos alpha_sp + cos alpha_rp) ,  w_pi = u_pi - u_c cos alpha_sp ,  X_i ,  Y_i ;  u_s
+//             in the slot of w_s, w_r in that of u_r                                 `fixed_sun`: 3N + 8
+//   carrier and ring   w_s = u_s + u_r - u_c (cos alpha_sp + cos alpha_rp) ,
+//             w_pi = u_pi - u_r + u_c cos alpha_rp ,  X_i ,  Y_i                     `free`: 3N + 7, as a rigid ring
 //
 // A lone pair of gears has gear 1 in the place of the sun and gear 2 in that of its only planet [M-pair]. If both gears
 // rotate freely, one rotation is left, w = u_1 + u_2. Translations are left out if the bearings are rigid.

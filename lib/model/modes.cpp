@@ -49,11 +49,13 @@ class Assembly {
       if constexpr (N > 1)
         spring(Element::ring_planet_mesh, stage_.ring_planet_mesh.stiffness_N_per_m,
                row([i](const D& d) { return d.ring_planet[i]; }));
-      spring(Element::planet_bearing, stage_.planet.bearing_N_per_m, row([i](const D& d) { return d.carrier_x[i]; }));
-      spring(Element::planet_bearing, stage_.planet.bearing_N_per_m, row([i](const D& d) { return d.carrier_y[i]; }));
-      mass(Slots::x_p(i), stage_.planet.mass_kg);
-      mass(Slots::y_p(i), stage_.planet.mass_kg);
-      mass(Slots::w_p(i), stage_.planet.inertia_over_r2_kg);
+      spring(Element::planet_bearing, stage_.planet.bearing_N_per_m[i],
+             row([i](const D& d) { return d.carrier_x[i]; }));
+      spring(Element::planet_bearing, stage_.planet.bearing_N_per_m[i],
+             row([i](const D& d) { return d.carrier_y[i]; }));
+      mass(Slots::x_p(i), stage_.planet.mass_kg[i]);
+      mass(Slots::y_p(i), stage_.planet.mass_kg[i]);
+      mass(Slots::w_p(i), stage_.planet.inertia_over_r2_kg[i]);
     }
     member(stage_.sun, Slots::x_s, Slots::y_s, Slots::w_s, Element::sun_support, Element::sun_torsion);
     if constexpr (N == 1) {

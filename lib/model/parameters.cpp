@@ -4,7 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "gear/bearing.hpp"
@@ -137,7 +140,8 @@ std::shared_ptr<const FrictionTrack> make_track(const gear::Friction& friction, 
 ///
 ///   e_0sp = t cos alpha_sp + r sin alpha_sp ,  e_0rp = t cos alpha_rp - r sin alpha_rp                    [M-pin]
 ///
-/// The change of the centrifugal force, of r / r_c, is left out.
+/// So does a pin circle whose centre is beside the axis of the carrier. The change of the centrifugal force, of r /
+/// r_c, is left out.
 template <std::size_t N>
 void add_pin_errors(Parameters<double, N>& p, const gear::Stage& stage, const Scales& scales) {
   const gear::PressureAngles alpha = gear::pressure_angles(stage);
@@ -150,10 +154,126 @@ void add_pin_errors(Parameters<double, N>& p, const gear::Stage& stage, const Sc
       p.ring_planet.error_mean[i] += to_ring * error;
     }
   };
-  add(stage.planet.pin_error_tangential_um, along_torque * std::cos(alpha.sun_planet),
-      along_torque * std::cos(alpha.ring_planet));
-  add(stage.planet.pin_error_radial_um, std::sin(alpha.sun_planet), -std::sin(alpha.ring_planet));
+  const auto tangential = [&](const std::optional<std::vector<double>>& errors_um) {
+    add(errors_um, along_torque * std::cos(alpha.sun_planet), along_torque * std::cos(alpha.ring_planet));
+  };
+  const auto radial = [&](const std::optional<std::vector<double>>& errors_um) {
+    add(errors_um, std::sin(alpha.sun_planet), -std::sin(alpha.ring_planet));
+  };
+  tangential(stage.planet.pin_error_tangential_um);
+  radial(stage.planet.pin_error_radial_um);
+  if (const auto& amount = stage.carrier.errors.eccentricity_um) {
+    std::vector<double> ahead, outward;
+    for (const double planet_deg : stage.planet_angles_deg()) {
+      const double angle = (stage.carrier.errors.eccentricity_phase_deg.value_or(0.0) - planet_deg) * radian;
+      ahead.push_back(*amount * std::sin(angle));
+      outward.push_back(*amount * std::cos(angle));
+    }
+    tangential(ahead);
+    radial(outward);
+  }
 }
+
+/// Errors that repeat with the rotations of sun, planets and ring relative to the carrier, along the torque on the sun
+/// (d = 1; against it d = -1), with phi_i from planet 1 for the teeth [M-shaft]:
+///
+///   sun      e_spi = - E_s sin(psi_s + d s / z_s + phi_spi)
+///   planet   e_spi = E_p sin(theta + phi_spi) ,  e_rpi = E_p sin(theta - phi_rpi) ,  theta = phi_i + psi_pi - d s /
+///   z_p ring     e_rpi = - E_r sin(psi_r - d s / z_r - phi_rpi) tooth k of z    e_i = p_k where it passes planet i, by
+///   the trigonometric polynomial through all teeth
+///
+/// In the mirror image all angles have the other sign.
+template <std::size_t N>
+class Shafts {
+ public:
+  Shafts(Parameters<double, N>& p, const gear::Stage& stage, const Scales& scales)
+      : p_(p),
+        stage_(stage),
+        scales_(scales),
+        mirror_(gear::is_mirrored(stage) ? -1.0 : 1.0),
+        along_(stage.runs_backward() ? -1.0 : 1.0),
+        angles_(stage.angles_along_torque_deg()) {
+    for (double& angle : angles_) angle *= radian;
+  }
+
+  void fill() {
+    const gear::PressureAngles alpha = gear::pressure_angles(stage_);
+    const auto line_sp = [&](std::size_t i) { return alpha.sun_planet - angles_[i]; };
+    const auto line_rp = [&](std::size_t i) { return -alpha.ring_planet - angles_[i]; };
+    add_central(stage_.sun, p_.sun_planet, along_, line_sp);
+    add_central(stage_.ring, p_.ring_planet, -along_, line_rp);
+    add_planets(p_.sun_planet, line_sp);
+    add_planets(p_.ring_planet, line_rp);
+  }
+
+ private:
+  using Errors = ShaftErrors<double, N>;
+
+  [[nodiscard]] double length(double um) const { return scales_.displacement(um * 1e-6); }
+
+  static Errors none(int teeth, std::size_t harmonics) {
+    return {1.0 / teeth, std::vector<Row<double, N>>(harmonics, 0.0), std::vector<Row<double, N>>(harmonics, 0.0)};
+  }
+
+  /// amplitude sin(phase + direction s / teeth).
+  static void add_sine(Errors& errors, std::size_t i, double amplitude, double phase, double direction) {
+    errors.cosine[0][i] += amplitude * std::sin(phase);
+    errors.sine[0][i] += direction * amplitude * std::cos(phase);
+  }
+
+  /// @param direction  of the rotation relative to the carrier
+  /// @param line       angle of the line of action of planet i
+  template <class F>
+  void add_central(const gear::CentralMember& member, MeshParameters<double, N>& mesh, double direction,
+                   const F& line) {
+    const auto& [eccentricity, phase_deg, pitch] = member.errors;
+    if (!eccentricity && !pitch) return;
+    const std::size_t teeth = pitch ? pitch->size() : 2;
+    Errors errors = none(*member.teeth, std::min(gear::harmonics_max, teeth / 2));
+    for (std::size_t i = 0; i < N; ++i) {
+      if (eccentricity)
+        add_sine(errors, i, -length(*eccentricity), mirror_ * phase_deg.value_or(0.0) * radian + line(i), direction);
+      if (pitch) {
+        add_teeth(errors, i, *pitch, direction);
+        mesh.error_mean[i] += length(std::accumulate(pitch->begin(), pitch->end(), 0.0) / static_cast<double>(teeth));
+      }
+    }
+    mesh.shafts.push_back(std::move(errors));
+  }
+
+  /// sum_h c_h cos h (phi_i - phi_1 - direction s / teeth - angle of the tooth).
+  void add_teeth(Errors& errors, std::size_t i, const std::vector<double>& pitch, double direction) const {
+    const auto count = static_cast<double>(pitch.size());
+    for (std::size_t h = 1; h <= errors.cosine.size(); ++h) {
+      const double part = (2 * h == pitch.size() ? 1.0 : 2.0) / count;
+      for (std::size_t k = 0; k < pitch.size(); ++k) {
+        const double tooth = mirror_ * two_pi * static_cast<double>(k) / count;
+        const double angle = static_cast<double>(h) * (angles_[i] - angles_[0] - tooth);
+        errors.cosine[h - 1][i] += part * length(pitch[k]) * std::cos(angle);
+        errors.sine[h - 1][i] += direction * part * length(pitch[k]) * std::sin(angle);
+      }
+    }
+  }
+
+  template <class F>
+  void add_planets(MeshParameters<double, N>& mesh, const F& line) {
+    const auto& [amount, phase_deg] = std::tie(stage_.planet.eccentricity_um, stage_.planet.eccentricity_phase_deg);
+    if (!amount) return;
+    Errors errors = none(*stage_.planet.teeth, 1);
+    for (std::size_t i = 0; i < N; ++i) {
+      const double own = phase_deg ? mirror_ * per_planet(*phase_deg, i) * radian : 0.0;
+      add_sine(errors, i, length(per_planet(*amount, i)), angles_[i] + own + line(i), -along_);
+    }
+    mesh.shafts.push_back(std::move(errors));
+  }
+
+  Parameters<double, N>& p_;
+  const gear::Stage& stage_;
+  const Scales& scales_;
+  double mirror_;
+  double along_;
+  std::vector<double> angles_;
+};
 
 template <std::size_t N>
 void append_breakpoints(const MeshParameters<double, N>& mesh, std::vector<double>& phases) {
@@ -214,6 +334,14 @@ void make_segments(Parameters<double, N>& p) {
     add_segment(wrapped(0.5 * (phases[k] + next)));
   }
   if (phases.empty()) add_segment(0.0);
+  // The same in each mesh period.
+  const std::size_t one = p.breakpoints.size();
+  for (int period = 1; period < p.mesh_periods; ++period)
+    for (std::size_t k = 0; k < one; ++k) {
+      p.breakpoints.push_back(two_pi * period + p.breakpoints[k]);
+      p.segments.push_back(p.segments[k]);
+      p.sampling_interval.push_back(p.sampling_interval[k]);
+    }
 }
 
 struct GyroscopicForm {
@@ -230,20 +358,23 @@ GyroscopicForm gyroscopic_form(gear::Boundary boundary, Gyroscopic wanted) {
 template <std::size_t N>
 void fill_bodies(Parameters<double, N>& p, const gear::Stage& stage, const Scales& scales) {
   const auto ratio = [&](double kg) { return scales.mass_ratio(kg); };
+  for (std::size_t i = 0; i < N; ++i) {
+    p.mass_p[i] = ratio(stage.planet.mass_kg[i]);
+    p.inertia_p[i] = ratio(stage.planet.inertia_over_r2_kg[i]);
+    p.inverse_mass_p[i] = 1.0 / p.mass_p[i];
+    p.inverse_inertia_p[i] = 1.0 / p.inertia_p[i];
+  }
+  p.planets_mass = static_cast<double>(N) * ratio(stage.planet.mass_kg);
   p.mass_s = ratio(stage.sun.mass_kg);
-  p.mass_p = ratio(stage.planet.mass_kg);
   p.mass_r = ratio(stage.ring.mass_kg);
   p.mass_c = ratio(stage.carrier.mass_kg);
   p.inertia_s = ratio(stage.sun.inertia_over_r2_kg);
-  p.inertia_p = ratio(stage.planet.inertia_over_r2_kg);
   p.inertia_r = ratio(stage.ring.inertia_over_r2_kg);
   p.inertia_c = ratio(stage.carrier.inertia_over_r2_kg);
   p.inverse_mass_s = 1.0 / p.mass_s;
-  p.inverse_mass_p = 1.0 / p.mass_p;
   p.inverse_mass_r = 1.0 / p.mass_r;
   p.inverse_mass_c = 1.0 / p.mass_c;
   p.inverse_inertia_s = 1.0 / p.inertia_s;
-  p.inverse_inertia_p = 1.0 / p.inertia_p;
   p.inverse_inertia_r = 1.0 / p.inertia_r;
   p.inverse_inertia_c = 1.0 / p.inertia_c;
 }
@@ -278,8 +409,11 @@ void fill_supports(Parameters<double, N>& p, const gear::Stage& stage, const Sca
   p.torsion_p = stiffness(planet_torsion);
   p.torsion_damping_s = torsion_damping(stage.sun);
   p.torsion_damping_p = dashpot(planet_torsion, stage.planet);
-  p.bearing_p = stiffness(stage.planet.bearing_N_per_m);
-  p.bearing_damping_p = scales.damping(stage.planet.damping.of(stage.planet.bearing_N_per_m, stage.planet.mass_kg));
+  for (std::size_t i = 0; i < N; ++i) {
+    const double bearing = stage.planet.bearing_N_per_m[i];
+    p.bearing_p[i] = stiffness(bearing);
+    p.bearing_damping_p[i] = scales.damping(stage.planet.damping.of(bearing, stage.planet.mass_kg[i]));
+  }
   p.sun_half_gap = scales.displacement(stage.sun_bearing.clearance_half_um * 1e-6);
   p.sun_law = stage.sun_bearing.law;
   const bool hertzian = p.sun_law == gear::BearingLaw::palmgren_xy || p.sun_law == gear::BearingLaw::palmgren_radial;
@@ -292,6 +426,7 @@ void fill_loads(Parameters<double, N>& p, const gear::Stage& stage, const Scales
   const gear::Torques torque = gear::torques(stage, mesh_frequency);
   constexpr double m_per_mm = 1e-3;
   p.drive = scales.force(torque.sun / (*stage.sun.base_radius_mm * m_per_mm));
+  if (stage.boundary == gear::Boundary::fixed_sun) p.drive = 0.0;  // its support bears the torque
   if (stage.is_pair()) {
     // The torque on gear 2 is the static force on its base circle, whatever the digits of the radii.
     p.output_load = p.drive;
@@ -370,6 +505,9 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
   fill_loads(p, stage, scales, mesh_frequency);
   fill_meshes(p, stage, scales, mesh_frequency, options.halved_tables, like);
   add_pin_errors(p, stage, scales);
+  Shafts<N>(p, stage, scales).fill();
+  p.boundary = stage.boundary;
+  p.mesh_periods = stage.mesh_periods();
   make_segments(p);
   if (p.torque_harmonics > 0)
     for (double& interval : p.sampling_interval)
@@ -377,10 +515,15 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
 
   const GyroscopicForm form = gyroscopic_form(stage.boundary, options.gyroscopic);
   const double direction = stage.runs_backward() ? -1.0 : 1.0;
-  p.carrier_speed = form.on ? direction * gear::speeds(stage, mesh_frequency).carrier / scales.omega_sn : 0.0;
-  p.centrifugal = options.centrifugal == Centrifugal::included
-                      ? scales.force(gear::planet_centrifugal_force(stage, mesh_frequency))
-                      : 0.0;
+  // A carrier that drives round a held sun rotates against the sun's torque, its meshes forward.
+  const double carrier = (stage.boundary == gear::Boundary::fixed_sun ? -direction : direction) *
+                         gear::speeds(stage, mesh_frequency).carrier;
+  p.carrier_speed = form.on ? carrier / scales.omega_sn : 0.0;
+  for (std::size_t i = 0; i < N; ++i)
+    p.centrifugal[i] =
+        options.centrifugal == Centrifugal::included
+            ? scales.force(gear::planet_centrifugal_force(stage, mesh_frequency, stage.planet.mass_kg[i]))
+            : 0.0;
   p.gyroscopic_relative = form.relative;
   p.gyroscopic_carrier_row = form.carrier_row;
   p.smooth = options.clearance_smoothing > 0.0;

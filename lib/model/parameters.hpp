@@ -27,6 +27,14 @@
 
 namespace epicyclic::model {
 
+/// Errors that repeat with a member's rotation relative to the carrier [M-shaft]:
+/// sum_h [ A_hi cos(h nu s) + B_hi sin(h nu s) ].
+template <class T, std::size_t N>
+struct ShaftErrors {
+  T order;                              ///< nu = 1 / teeth
+  std::vector<Row<T, N>> cosine, sine;  ///< A_hi, B_hi; [harmonics][N]
+};
+
 /// One kind of mesh of N planets.
 template <class T, std::size_t N>
 struct MeshParameters {
@@ -38,6 +46,7 @@ struct MeshParameters {
   std::vector<Row<T, N>> stiffness_cos, stiffness_sin;      ///< C_hi, S_hi; [harmonics][N]
   Row<T, N> error_cos{}, error_sin{};                       ///< a_i, b_i
   Row<T, N> error_mean{};                                   ///< e_0i [M-e]
+  std::vector<ShaftErrors<T, N>> shafts;                    ///< one for each member with errors of its own
   std::shared_ptr<const PeriodicTrack<1>> stiffness_curve;  ///< in place of k_0 and harmonics; null without
   std::shared_ptr<const FrictionTrack> friction;            ///< null without friction
   Row<double, N> phase_cycles{};                            ///< mesh phase of planet i over 2 pi, at s = 0
@@ -60,32 +69,36 @@ struct Parameters {
   T omega;                         ///< Omega = omega_m / omega_sn
   Row<T, N> sin_phi{}, cos_phi{};  ///< of the planets' angles
   T cos_alpha_sp, cos_alpha_rp;
-  T mass_s, mass_p, mass_r, mass_c;                                  ///< M
-  T inertia_s, inertia_p, inertia_r, inertia_c;                      ///< I / r^2
-  T inverse_mass_s, inverse_mass_p, inverse_mass_r, inverse_mass_c;  ///< 1 / M
-  T inverse_inertia_s, inverse_inertia_p, inverse_inertia_r, inverse_inertia_c;
+  T mass_s, mass_r, mass_c;                          ///< M
+  T inertia_s, inertia_r, inertia_c;                 ///< I / r^2
+  T inverse_mass_s, inverse_mass_r, inverse_mass_c;  ///< 1 / M
+  T inverse_inertia_s, inverse_inertia_r, inverse_inertia_c;
+  Row<T, N> mass_p{}, inertia_p{}, inverse_mass_p{}, inverse_inertia_p{};  ///< of each planet
+  T planets_mass;                                                          ///< sum M_p
   T support_s, support_r, support_c;  ///< k of the translations
   T damping_s, damping_r, damping_c;  ///< c of the translations
   T torsion_r, torsion_c;             ///< k_ru, k_cu
   T torsion_damping_r, torsion_damping_c;
-  T bearing_p, bearing_damping_p;  ///< k_p, c_p
+  Row<T, N> bearing_p{}, bearing_damping_p{};  ///< k_p, c_p of each planet
   T sun_half_gap;                  ///< b_s
   gear::BearingLaw sun_law = gear::BearingLaw::linear_xy;
   T sun_hertz;                        ///< K of the Palmgren laws, force K d^(3/2)
   T drive, ring_drive, carrier_load;  ///< T_D / r_bs, T_r / r_br, T_c / r_c
-  /// Of a pair [M-pair]: k_u and c_u of gear 1 and gear 2, T_2 / r_b2.
+  /// k_su, c_su of a sun that is held; of a pair [M-pair]: k_u and c_u of gear 1 and gear 2, T_2 / r_b2.
   T torsion_s, torsion_p, torsion_damping_s, torsion_damping_p, output_load;
   std::size_t torque_harmonics = 0;
   std::vector<T> input_cos, input_sin, output_cos, output_sin;  ///< over the mean torques; [torque_harmonics]
   MeshParameters<T, N> sun_planet, ring_planet;
   T carrier_speed;                      ///< omega_c / omega_sn; 0 if the gyroscopic terms are off
-  T centrifugal;                        ///< M_p omega_c^2 r_c of each planet [M-cf]; 0 if it is left out
+  Row<T, N> centrifugal{};              ///< M_p omega_c^2 r_c of each planet [M-cf]; 0 if it is left out
+  gear::Boundary boundary = gear::Boundary::fixed_ring;
   bool gyroscopic_relative = false;     ///< planets' terms in X_i, Y_i with their reaction on the carrier [M-inv]
   bool gyroscopic_carrier_row = false;  ///< N M_p omega_c^2 u_c added to the carrier row
   bool smooth = false;
   T smoothing;  ///< w
   GapDamping gap_damping = GapDamping::always;
-  std::vector<double> breakpoints;        ///< of the common s, in [0, 2 pi), rising
+  int mesh_periods = 1;                   ///< mesh periods after which everything repeats
+  std::vector<double> breakpoints;        ///< of the common s, in [0, 2 pi mesh_periods), rising
   std::vector<Segment<N>> segments;       ///< segment k follows breakpoint k (the last one wraps); one if no breakpoint
   std::vector<double> sampling_interval;  ///< of g in each segment [M-rows]
 };
@@ -129,27 +142,35 @@ void for_each_constant(P& p, const F& f) {
     all(m.error_cos);
     all(m.error_sin);
     all(m.error_mean);
+    for (auto& shaft : m.shafts) {
+      f(shaft.order);
+      for (auto& harmonic : shaft.cosine) all(harmonic);
+      for (auto& harmonic : shaft.sine) all(harmonic);
+    }
   };
   const auto each = [&](auto&... constants) { (f(constants), ...); };
   f(p.omega);
   all(p.sin_phi);
   all(p.cos_phi);
   each(p.cos_alpha_sp, p.cos_alpha_rp);
-  each(p.mass_s, p.mass_p, p.mass_r, p.mass_c);
-  each(p.inertia_s, p.inertia_p, p.inertia_r, p.inertia_c);
-  each(p.inverse_mass_s, p.inverse_mass_p, p.inverse_mass_r, p.inverse_mass_c);
-  each(p.inverse_inertia_s, p.inverse_inertia_p, p.inverse_inertia_r, p.inverse_inertia_c);
+  each(p.mass_s, p.mass_r, p.mass_c, p.planets_mass);
+  each(p.inertia_s, p.inertia_r, p.inertia_c);
+  each(p.inverse_mass_s, p.inverse_mass_r, p.inverse_mass_c);
+  each(p.inverse_inertia_s, p.inverse_inertia_r, p.inverse_inertia_c);
+  for (auto* row : {&p.mass_p, &p.inertia_p, &p.inverse_mass_p, &p.inverse_inertia_p, &p.bearing_p,
+                    &p.bearing_damping_p, &p.centrifugal})
+    all(*row);
   each(p.support_s, p.support_r, p.support_c);
   each(p.damping_s, p.damping_r, p.damping_c);
   each(p.torsion_r, p.torsion_c, p.torsion_damping_r, p.torsion_damping_c);
-  each(p.bearing_p, p.bearing_damping_p, p.sun_half_gap, p.sun_hertz);
+  each(p.sun_half_gap, p.sun_hertz);
   each(p.drive, p.ring_drive, p.carrier_load);
   each(p.torsion_s, p.torsion_p, p.torsion_damping_s, p.torsion_damping_p, p.output_load);
   for (auto* list : {&p.input_cos, &p.input_sin, &p.output_cos, &p.output_sin})
     for (auto& ratio : *list) f(ratio);
   mesh(p.sun_planet);
   mesh(p.ring_planet);
-  each(p.carrier_speed, p.centrifugal, p.smoothing);
+  each(p.carrier_speed, p.smoothing);
 }
 
 /// All of them in that order.
@@ -168,12 +189,19 @@ template <class T, std::size_t N>
     to.friction = from.friction;
     to.phase_cycles = from.phase_cycles;
     to.in_phase = from.in_phase;
+    to.shafts.resize(from.shafts.size());
+    for (std::size_t k = 0; k < from.shafts.size(); ++k) {
+      to.shafts[k].cosine.resize(from.shafts[k].cosine.size());
+      to.shafts[k].sine.resize(from.shafts[k].sine.size());
+    }
   };
   mesh(p.sun_planet, r.sun_planet);
   mesh(p.ring_planet, r.ring_planet);
   r.torque_harmonics = p.torque_harmonics;
   for (auto* list : {&r.input_cos, &r.input_sin, &r.output_cos, &r.output_sin}) list->resize(p.torque_harmonics);
   r.sun_law = p.sun_law;
+  r.boundary = p.boundary;
+  r.mesh_periods = p.mesh_periods;
   r.gyroscopic_relative = p.gyroscopic_relative;
   r.gyroscopic_carrier_row = p.gyroscopic_carrier_row;
   r.smooth = p.smooth;

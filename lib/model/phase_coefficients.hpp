@@ -1,8 +1,9 @@
 // What the mesh phase alone decides of the stage: errors, stiffness and friction of the meshes, before any state is
 // known.
 //
-//   e_i = e_c,i cos s + e_s,i sin s + e_0,i ,  e_i' = Omega (e_s,i cos s - e_c,i sin s) [M-13], [M-14] k_i(s), A_i(s),
-//   B_i(s)  by harmonics or tables on the mesh's own phase s / 2 pi + turns_i                    [M-27]
+//   e_i = e_c,i cos s + e_s,i sin s + e_0,i ,  e_i' = Omega (e_s,i cos s - e_c,i sin s)          [M-13], [M-14]
+//   and terms in s / teeth with a member's rotation                                              [M-shaft]
+//   k_i(s), A_i(s), B_i(s)  by harmonics or tables on the mesh's own phase s / 2 pi + turns_i    [M-27]
 //
 // The slopes of a Runge-Kutta step are taken at phases that are known when the step begins; lanes make their
 // coefficients all at once, because this is mostly waiting for one's own results.
@@ -64,6 +65,20 @@ struct MeshCoefficients {
       stiffness = mesh.stiffness;
       for (std::size_t h = 0; h < mesh.harmonics; ++h)
         stiffness += mesh.stiffness_cos[h] * basis.cosine[h] + mesh.stiffness_sin[h] * basis.sine[h];
+    }
+  }
+
+  /// What rotations of the members add [M-shaft].
+  void add_shaft_errors(const P& omega, const MeshParameters<P, N>& mesh, const P& s) {
+    for (const ShaftErrors<P, N>& shaft : mesh.shafts) {
+      const std::size_t harmonics = shaft.cosine.size();
+      const HarmonicBasis<P> turn(sine_cosine(shaft.order * s), harmonics);
+      P rate = P(0.0);
+      for (std::size_t h = 0; h < harmonics; ++h) {
+        rate += omega * shaft.order;
+        error += shaft.cosine[h] * turn.cosine[h] + shaft.sine[h] * turn.sine[h];
+        error_rate += rate * (shaft.sine[h] * turn.cosine[h] - shaft.cosine[h] * turn.sine[h]);
+      }
     }
   }
 
@@ -137,12 +152,15 @@ struct PhaseCoefficients {
   PhaseCoefficients() = default;
 
   /// Without the tables.
-  PhaseCoefficients(const Parameters<P, N>& p, const HarmonicBasis<P>& basis)
-      : sun_planet(p, p.sun_planet, basis), ring_planet(p, p.ring_planet, basis), torques(p, basis) {}
+  PhaseCoefficients(const Parameters<P, N>& p, const HarmonicBasis<P>& basis, const P& s)
+      : sun_planet(p, p.sun_planet, basis), ring_planet(p, p.ring_planet, basis), torques(p, basis) {
+    sun_planet.add_shaft_errors(p.omega, p.sun_planet, s);
+    ring_planet.add_shaft_errors(p.omega, p.ring_planet, s);
+  }
 
   /// @param segment  of p, that of s
   PhaseCoefficients(const Parameters<P, N>& p, std::size_t segment, const P& s)
-      : PhaseCoefficients(p, HarmonicBasis<P>(sine_cosine(s), harmonics_of(p))) {
+      : PhaseCoefficients(p, HarmonicBasis<P>(sine_cosine(s), harmonics_of(p)), s) {
     sun_planet.interpolate(p.sun_planet, p.segments[segment].sun_planet, s);
     ring_planet.interpolate(p.ring_planet, p.segments[segment].ring_planet, s);
   }

@@ -223,16 +223,20 @@ template <class T, class P, std::size_t N, std::size_t G>
   r.sun_y = sum(sp.force * cos_sp - sp.friction * sin_sp);
   r.sun_u = sum(sp.force - sp.moment_driving);
 
-  const R spring_x = p.bearing_p * g.d.carrier_x + p.bearing_damping_p * g.d_rate.carrier_x;
-  const R spring_y = p.bearing_p * g.d.carrier_y + p.bearing_damping_p * g.d_rate.carrier_y;
+  const auto& bearing = planets(p.bearing_p);
+  const auto& bearing_damping = planets(p.bearing_damping_p);
+  const auto& inverse_mass = planets(p.inverse_mass_p);
+  const auto& inverse_inertia = planets(p.inverse_inertia_p);
+  const R spring_x = bearing * g.d.carrier_x + bearing_damping * g.d_rate.carrier_x;
+  const R spring_y = bearing * g.d.carrier_y + bearing_damping * g.d_rate.carrier_y;
   r.carrier_x = sum(spring_x);
   r.carrier_y = sum(spring_y);
-  r.carrier_u = sum(p.bearing_p * g.d.carrier_u + p.bearing_damping_p * g.d_rate.carrier_u);
+  r.carrier_u = sum(bearing * g.d.carrier_u + bearing_damping * g.d_rate.carrier_u);
 
   if constexpr (N == 1) {
-    a.x_p = (sp.force * sin_sp + sp.friction * cos_sp - spring_x) * p.inverse_mass_p;
-    a.y_p = (sp.force * cos_sp - sp.friction * sin_sp - spring_y) * p.inverse_mass_p;
-    a.w_p = (sp.moment_driven - sp.force) * p.inverse_inertia_p;
+    a.x_p = (sp.force * sin_sp + sp.friction * cos_sp - spring_x) * inverse_mass;
+    a.y_p = (sp.force * cos_sp - sp.friction * sin_sp - spring_y) * inverse_mass;
+    a.w_p = (sp.moment_driven - sp.force) * inverse_inertia;
     r.ring_x = r.ring_y = r.ring_u = r.frame_u = T(0.0);
     return r;
   }
@@ -247,21 +251,23 @@ template <class T, class P, std::size_t N, std::size_t G>
     x_rate += v.u_c * sin_phi;
     y_rate -= v.u_c * cos_phi;
   }
-  const R frame_x = p.mass_p * (wc2 * x + 2.0 * wc * y_rate);
-  const R frame_y = p.mass_p * (wc2 * y - 2.0 * wc * x_rate);
+  const auto& mass = planets(p.mass_p);
+  const auto& centrifugal = planets(p.centrifugal);
+  const R frame_x = mass * (wc2 * x + 2.0 * wc * y_rate);
+  const R frame_y = mass * (wc2 * y - 2.0 * wc * x_rate);
   if (p.gyroscopic_relative) {
     r.frame_u = sum(frame_x * sin_phi - frame_y * cos_phi);
   } else {
     r.frame_u = T(0.0);
   }
 
-  a.x_p = (frame_x + p.centrifugal * cos_phi - spring_x + sp.force * sin_sp + sp.friction * cos_sp - rp.force * sin_rp -
+  a.x_p = (frame_x + centrifugal * cos_phi - spring_x + sp.force * sin_sp + sp.friction * cos_sp - rp.force * sin_rp -
            rp.friction * cos_rp) *
-          p.inverse_mass_p;
-  a.y_p = (frame_y + p.centrifugal * sin_phi - spring_y + sp.force * cos_sp - sp.friction * sin_sp + rp.force * cos_rp -
+          inverse_mass;
+  a.y_p = (frame_y + centrifugal * sin_phi - spring_y + sp.force * cos_sp - sp.friction * sin_sp + rp.force * cos_rp -
            rp.friction * sin_rp) *
-          p.inverse_mass_p;
-  a.w_p = (-sp.force + sp.moment_driven + rp.force - rp.moment_driving) * p.inverse_inertia_p;
+          inverse_mass;
+  a.w_p = (-sp.force + sp.moment_driven + rp.force - rp.moment_driving) * inverse_inertia;
 
   r.ring_x = sum(rp.force * sin_rp + rp.friction * cos_rp);
   r.ring_y = sum(rp.force * cos_rp - rp.friction * sin_rp);
@@ -292,7 +298,8 @@ void accelerate_members(const Parameters<P, N>& p, const Torques& torques, const
   const BearingForce<T> bearing = sun_bearing_force(p, q.x_s, q.y_s);
   const T sun_x = -bearing.x - p.damping_s * v.x_s - r.sun_x;
   const T sun_y = -bearing.y - p.damping_s * v.y_s - r.sun_y;
-  const T sun_u = p.drive - r.sun_u;
+  T sun_u = p.drive - r.sun_u;
+  if (p.boundary == gear::Boundary::fixed_sun) sun_u -= p.torsion_s * q.w_s + p.torsion_damping_s * v.w_s;
   a.x_s = sun_x * p.inverse_mass_s + 2.0 * wc * v.y_s + wc2 * q.x_s;
   a.y_s = sun_y * p.inverse_mass_s - 2.0 * wc * v.x_s + wc2 * q.y_s;
   a.w_s = sun_u * p.inverse_inertia_s;
@@ -308,7 +315,7 @@ void accelerate_members(const Parameters<P, N>& p, const Torques& torques, const
   const T carrier_y = -p.support_c * q.y_c - p.damping_c * v.y_c + r.carrier_y;
   T carrier_u = -p.torsion_c * q.u_c - p.torsion_damping_c * v.u_c - p.carrier_load + r.carrier_u;
   if (p.gyroscopic_relative) carrier_u += r.frame_u;
-  if (p.gyroscopic_carrier_row) carrier_u -= static_cast<double>(N) * p.mass_p * wc2 * q.u_c;
+  if (p.gyroscopic_carrier_row) carrier_u -= p.planets_mass * wc2 * q.u_c;
   a.x_c = carrier_x * p.inverse_mass_c + 2.0 * wc * v.y_c + wc2 * q.x_c;
   a.y_c = carrier_y * p.inverse_mass_c - 2.0 * wc * v.x_c + wc2 * q.y_c;
   a.u_c = carrier_u * p.inverse_inertia_c;
@@ -360,8 +367,17 @@ void make_relative(Layout layout, const Parameters<P, N>& p, Coordinates<T, N>& 
       return;
     case Layout::relative_to_carrier:
     case Layout::relative_to_carrier_rigid_ring:
-      a.w_s -= a.u_c * (p.cos_alpha_sp + p.cos_alpha_rp);
-      a.w_p += a.u_c * p.cos_alpha_rp;
+      if (p.boundary == gear::Boundary::fixed_sun) {
+        a.u_r -= a.u_c * (p.cos_alpha_sp + p.cos_alpha_rp);
+        a.w_p -= a.u_c * p.cos_alpha_sp;
+      } else {
+        a.w_s -= a.u_c * (p.cos_alpha_sp + p.cos_alpha_rp);
+        a.w_p += a.u_c * p.cos_alpha_rp;
+      }
+      if (p.boundary == gear::Boundary::free) {
+        a.w_s += a.u_r;
+        a.w_p -= a.u_r;
+      }
       a.x_p += a.u_c * p.sin_phi;
       a.y_p -= a.u_c * p.cos_phi;
       return;
@@ -478,8 +494,8 @@ void evaluate_outputs(Layout layout, const Parameters<P, N>& p, const PhaseCoeff
     mesh(at.sun_planet(i), g.sun_planet);
     mesh(at.ring_planet(i), g.ring_planet);
     rows[at.planet_bearing(i)] =
-        magnitude(p.bearing_p * g.d.carrier_x[0] + p.bearing_damping_p * g.d_rate.carrier_x[0],
-                  p.bearing_p * g.d.carrier_y[0] + p.bearing_damping_p * g.d_rate.carrier_y[0]);
+        magnitude(p.bearing_p[i] * g.d.carrier_x[0] + p.bearing_damping_p[i] * g.d_rate.carrier_x[0],
+                  p.bearing_p[i] * g.d.carrier_y[0] + p.bearing_damping_p[i] * g.d_rate.carrier_y[0]);
   }
   const Coordinates<T, 1> q = unpack(layout, Planets<N, 1>{}, y);
   const Coordinates<T, 1> v = unpack(layout, Planets<N, 1>{}, y + degrees_of_freedom(layout, N));

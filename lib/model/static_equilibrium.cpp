@@ -101,6 +101,8 @@ std::vector<double> linear_equilibrium(Layout layout, Parameters<double, N> p) {
     mesh.friction = nullptr;
     for (double& e : mesh.error_cos) e += mesh.half_gap;
     mesh.error_sin.fill(0.0);
+    for (auto& shaft : mesh.shafts)
+      for (auto& harmonic : shaft.sine) harmonic.fill(0.0);
     mesh.half_gap = 0.0;
   };
   linear(p.sun_planet);
@@ -116,11 +118,14 @@ std::vector<double> linear_equilibrium(Layout layout, Parameters<double, N> p) {
   Eigen::VectorXd load(n);
   for (std::size_t r = 0; r < n; ++r) load(static_cast<Eigen::Index>(r)) = -slope[n + r];
 
-  p.drive = p.ring_drive = p.carrier_load = p.centrifugal = 0.0;
+  p.drive = p.ring_drive = p.carrier_load = 0.0;
+  p.centrifugal.fill(0.0);
   p.sun_planet.error_cos.fill(0.0);
   p.ring_planet.error_cos.fill(0.0);
   p.sun_planet.error_mean.fill(0.0);
   p.ring_planet.error_mean.fill(0.0);
+  p.sun_planet.shafts.clear();
+  p.ring_planet.shafts.clear();
   Eigen::MatrixXd stiffness(n, n);
   for (std::size_t c = 0; c < n; ++c) {
     state[c] = 1.0;
@@ -139,7 +144,8 @@ std::vector<double> linear_equilibrium(Layout layout, Parameters<double, N> p) {
 template <std::size_t N>
 std::vector<std::vector<double>> quasi_static_states(Layout layout, Parameters<double, N> p, std::vector<double> start,
                                                      std::span<const double> phases) {
-  p.carrier_speed = p.centrifugal = 0.0;
+  p.carrier_speed = 0.0;
+  p.centrifugal.fill(0.0);
   p.sun_planet.damping = p.ring_planet.damping = 0.0;  // or e' would load the meshes
   AtRest stage(layout, p);
   std::vector<AtRest> smoothed;

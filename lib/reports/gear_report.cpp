@@ -376,33 +376,44 @@ std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ra
         *stage.sun.teeth, *stage.planet.teeth, mesh_frequency / speeds.sun, mesh_frequency_ratio,
         speeds.sun * gear::rpm, gear::torques(stage, mesh_frequency).sun,
         gear::mean_mesh_load(stage, mesh_frequency).force_N, stage.sun_planet_mesh.stiffness_N_per_m / giga);
+  const bool held = stage.boundary == gear::Boundary::fixed_sun;
   return fmt::format(
-      "{}/{}/{} teeth, {} planets: ω_m = {:.4g} ω_s; at Ω = {:.4g} the sun rotates at {:.0f} rpm, the carrier at "
+      "{}/{}/{} teeth, {} planets: ω_m = {:.4g} {}; at Ω = {:.4g} the sun rotates at {:.0f} rpm, the carrier at "
       "{:.0f} rpm, T_D = {:.4g} N m, mean mesh force {:.4g} N; mean stiffness {:.4g} (sun-planet) and {:.4g} "
       "(ring-planet) 10^9 "
       "N/m.",
-      *stage.sun.teeth, *stage.planet.teeth, *stage.ring.teeth, stage.planet_count, mesh_frequency / speeds.sun,
-      mesh_frequency_ratio, speeds.sun * gear::rpm, speeds.carrier * gear::rpm,
-      gear::torques(stage, mesh_frequency).sun, gear::mean_mesh_load(stage, mesh_frequency).force_N,
-      stage.sun_planet_mesh.stiffness_N_per_m / giga, stage.ring_planet_mesh.stiffness_N_per_m / giga);
+      *stage.sun.teeth, *stage.planet.teeth, *stage.ring.teeth, stage.planet_count,
+      mesh_frequency / (held ? speeds.carrier : speeds.sun), held ? "ω_c" : "ω_s", mesh_frequency_ratio,
+      speeds.sun * gear::rpm, speeds.carrier * gear::rpm, gear::torques(stage, mesh_frequency).sun,
+      gear::mean_mesh_load(stage, mesh_frequency).force_N, stage.sun_planet_mesh.stiffness_N_per_m / giga,
+      stage.ring_planet_mesh.stiffness_N_per_m / giga);
 }
 
 std::string drive_words(const gear::Stage& stage) {
   const bool negative = gear::is_mirrored(stage);
-  if (!stage.runs_backward() && !negative) return {};
+  if (!stage.runs_backward() && !negative && stage.boundary != gear::Boundary::fixed_sun) return {};
   if (stage.is_pair()) return "gear 1 drives; loaded flanks: those of negative torque on gear 1";
+  const std::string flanks =
+      std::string("loaded flanks: those of ") + (negative ? "negative" : "positive") + " torque on the sun";
+  if (stage.boundary == gear::Boundary::fixed_sun) {
+    const bool carrier_drives = stage.driver == gear::Driver::carrier;
+    return fmt::format("the {} drives, the {} is driven; the sun is held; {}", carrier_drives ? "carrier" : "ring",
+                       carrier_drives ? "ring" : "carrier", flanks);
+  }
+  if (stage.boundary == gear::Boundary::free)
+    return fmt::format("no member is held; as seen from the carrier the sun rotates {} its torque; {}",
+                       stage.runs_backward() ? "against" : "with", flanks);
   const bool is_star = stage.boundary == gear::Boundary::star;
   const bool by_carrier = stage.driver == gear::Driver::carrier;
   const bool by_sun = stage.driver == gear::Driver::sun;
-  return fmt::format(
-      "the {} drives, the {} is driven; the sun rotates {} its torque; loaded flanks: those of {} torque on the sun",
-      by_sun       ? "sun"
-      : by_carrier ? "carrier"
-                   : "ring",
-      !by_sun   ? "sun"
-      : is_star ? "ring"
-                : "carrier",
-      stage.runs_backward() ? "against" : "with", negative ? "negative" : "positive");
+  return fmt::format("the {} drives, the {} is driven; the sun rotates {} its torque; {}",
+                     by_sun       ? "sun"
+                     : by_carrier ? "carrier"
+                                  : "ring",
+                     !by_sun   ? "sun"
+                     : is_star ? "ring"
+                               : "carrier",
+                     stage.runs_backward() ? "against" : "with", flanks);
 }
 
 std::string error_words(const gear::Stage& stage, double mesh_frequency_ratio) {

@@ -10,8 +10,10 @@
 
 namespace epicyclic::reports {
 
-/// "sun 6000 rpm".
+/// "sun 6000 rpm"; the carrier's speed if the sun is held.
 [[nodiscard]] inline std::string sun_speed_words(const gear::Speeds& speeds, int digits) {
+  if (speeds.sun == 0.0 && speeds.carrier != 0.0)
+    return "carrier " + short_text(gear::rpm * speeds.carrier, digits) + " rpm";
   return "sun " + short_text(gear::rpm * speeds.sun, digits) + " rpm";
 }
 
@@ -19,8 +21,9 @@ namespace epicyclic::reports {
 /// @param mesh_frequency  omega_m [rad/s]
 [[nodiscard]] inline std::string speed_words(const gear::Speeds& speeds, double mesh_frequency) {
   constexpr int digits = 6;
-  const std::string carrier =
-      speeds.carrier == 0.0 ? std::string() : ", carrier " + short_text(gear::rpm * speeds.carrier, digits) + " rpm";
+  const std::string carrier = speeds.carrier == 0.0 || speeds.sun == 0.0
+                                  ? std::string()
+                                  : ", carrier " + short_text(gear::rpm * speeds.carrier, digits) + " rpm";
   return sun_speed_words(speeds, digits) + carrier + ", mesh frequency " +
          short_text(mesh_frequency / (2.0 * std::numbers::pi), digits) + " Hz";
 }

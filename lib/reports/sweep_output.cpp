@@ -212,9 +212,11 @@ bool is_pair(const studies::PointSource& points) { return points.count > 0 && po
 
 std::string figure_title(const input::Study& study) {
   const gear::Boundary b = study.stage.boundary;
-  const char* boundary = b == gear::Boundary::as_printed ? "as_printed"
-                         : b == gear::Boundary::star     ? "star"
-                                                         : "fixed ring";
+  const char* boundary = b == gear::Boundary::as_printed  ? "as_printed"
+                         : b == gear::Boundary::star      ? "star"
+                         : b == gear::Boundary::fixed_sun ? "fixed sun"
+                         : b == gear::Boundary::free      ? "free"
+                                                          : "fixed ring";
   std::string title = study.name.empty() ? study.stage.name : study.name;
   if (!title.empty()) title += ", ";
   title += study.stage.is_pair() ? "pair of gears" : std::string("boundary ") + boundary;

@@ -59,7 +59,7 @@ class Recorder {
   /// A row of the history, of the instant that recording() has seen.
   void keep(std::size_t period, double s, std::span<const double> y) {
     constexpr double whole = 2.0 * std::numbers::pi;
-    const double phase = static_cast<double>(period) * whole + s;
+    const double phase = static_cast<double>(period) * model_.period + s;
     put(phase / whole);
     put(phase / model_.omega);
     put(y);
@@ -110,6 +110,9 @@ int portrait_detail(const model::DynamicModel& model, const RunOptions& options,
   return std::max(1, std::min(static_cast<int>(std::ceil(std::min(wanted, double{most}))), affordable));
 }
 
+/// Intervals of Lyapunov exponents, however long each is.
+constexpr int least_intervals = 50;
+
 /// One operating point, step by step into its result.
 class Run {
  public:
@@ -125,6 +128,7 @@ class Run {
 
   /// @returns false if ended
   bool all(RunResult& r) {
+    r.mesh_periods = model_.mesh_periods;
     r.omega = model_.omega;
     r.omega_sn = scales_.omega_sn;
     r.static_force = scales_.force_newton(model_.static_mesh_force);
@@ -132,7 +136,7 @@ class Run {
     if (control_.memory.point) {
       r.point = *control_.memory.point;
     } else {
-      r.point = compute_point({0, Direction::up, model_.omega}, model_, {}, recording_, integrator_, go_on_);
+      r.point = compute_point({0, Direction::up, model_.omega}, model_, {}, recording_of_point(), integrator_, go_on_);
       if (!go_on_()) return false;
       if (control_.memory.keep) control_.memory.keep(r.point);
     }
@@ -142,7 +146,7 @@ class Run {
     if (!model_.jumps_at_surfaces) find_orbit(r);
     // Exponents read the present results, the record writes other parts of them.
     std::future<void> exponents;
-    if (options_.exponent_periods > 0 && !model_.jumps_at_surfaces && go_on_())
+    if (options_.exponent_periods > 0 && !model_.jumps_at_surfaces && takes_sections() && go_on_())
       exponents = begun([&] { find_exponents(r); });
     at("histories, spectra");
     record(r);
@@ -154,12 +158,44 @@ class Run {
     if (options_.exponent_periods > 0 && !model_.jumps_at_surfaces && go_on_() && model_.remove_synchronous &&
         r.point.meshes.planet_spread <= synchronous)
       find_transverse(r);
+    count_in_mesh_periods(r);
     return go_on_();
   }
 
  private:
   void at(const char* what, int exponent_interval = 0) const {
     if (control_.at) control_.at(what, exponent_interval);
+  }
+
+  /// What was counted in periods of the field.
+  void count_in_mesh_periods(RunResult& r) const {
+    analysis::Recurrence& of_record = r.point.recurrence;
+    analysis::Recurrence& of_evidence = r.point.evidence.recurrence;
+    for (int* count : {&r.point.period, &of_record.period, &of_record.best_period, &of_evidence.period,
+                       &of_evidence.best_period, &r.point.evidence.periods})
+      *count *= model_.mesh_periods;
+    if (r.checks) r.checks->intervals *= model_.mesh_periods;
+  }
+
+  /// Periods of the field that have so many mesh periods, or more.
+  [[nodiscard]] int sections(int mesh_periods) const {
+    return (mesh_periods + model_.mesh_periods - 1) / model_.mesh_periods;
+  }
+  /// Samples in a period of the field.
+  [[nodiscard]] int dense_phases() const { return options_.dense_phases * model_.mesh_periods; }
+
+  [[nodiscard]] bool takes_sections() const { return model_.mesh_periods <= section_periods_max; }
+
+  /// The section is taken once in each period of the field: its counts are those of the options, or too many.
+  [[nodiscard]] RecordingOptions recording_of_point() const {
+    RecordingOptions o = recording_;
+    o.output_phases *= model_.mesh_periods;
+    if (takes_sections()) return o;
+    o = by_recurrence_alone(o);
+    o.growth_periods = 0;
+    o.transient_periods = sections(o.transient_periods);
+    o.recorded_periods = sections(o.recorded_periods);
+    return o;
   }
 
   /// Work by a thread of its own if one is wanted, and the system gives it; else when its end is waited for.
@@ -199,7 +235,7 @@ class Run {
   }
 
   void find_orbit(RunResult& r) {
-    if (r.point.regime != analysis::Regime::periodic) return;
+    if (r.point.regime != analysis::Regime::periodic || !takes_sections()) return;
     const double coarser = 10.0 * options_.check_tolerance;
     const auto fine = exact_flow(options_.check_tolerance);
     analysis::PeriodicOrbit orbit = analysis::find_periodic_orbit(*fine, state_, r.point.period);
@@ -244,6 +280,7 @@ class Run {
     s.signal = signal.name;
     s.unit = signal.unit;
     s.exact = exact;
+    s.shafts = model_.shafts;
     const double dt = 1.0 / phases;  // in mesh periods, the first of them at dt [uniform_phases()]
     std::vector<double>& values = signal.values;
     if (!exact) {
@@ -271,16 +308,18 @@ class Run {
   /// dense as the history's, aliasing would be visible.
   void find_spectra(RunResult& r) const {
     const bool exact = r.orbit.has_value();
-    const int n = exact ? r.point.period : options_.spectrum_periods;
+    const int periods = exact ? r.point.period : sections(options_.spectrum_periods);
+    const int n = periods * model_.mesh_periods;
     const int phases = options_.dense_phases * (exact ? oversampling(n) : 1);
     const auto own_flow = flow();
-    const std::vector<double> samples = analysis::uniform_phases(own_flow->field().period, phases);
+    const std::vector<double> samples =
+        analysis::uniform_phases(own_flow->field().period, phases * model_.mesh_periods);
     model::MeshDeflections d;
     model::StageForces f;
     std::vector<Signal> signals = {
         {"delta_sp_1", "um", {}}, {"delta_rp_1", "um", {}}, {"force_sp_1", "N", {}}, {"force_rp_1", "N", {}}};
     std::vector<double> y = state_;
-    for (int k = 0; k < n; ++k) {
+    for (int k = 0; k < periods; ++k) {
       if (!go_on_()) return;
       const integrate::Evolution e = own_flow->evolve(
           y, 0.0, own_flow->field().period, samples, [&](std::size_t, double s, std::span<const double> now) {
@@ -310,17 +349,19 @@ class Run {
   void record(RunResult& r) const {
     const auto own_flow = flow();
     const double period = own_flow->field().period;
-    const std::vector<double> samples = analysis::uniform_phases(period, options_.dense_phases);
+    const std::vector<double> samples = analysis::uniform_phases(period, dense_phases());
     r.history.phases = options_.dense_phases;
     Recorder recorder(model_, scales_, r.history);
     std::vector<double> y = state_;
-    const int shown = r.orbit.has_value() ? std::max(r.point.period, options_.shown_periods) : portrait_periods;
+    const int shown =
+        r.orbit.has_value() ? std::max(r.point.period * model_.mesh_periods, options_.shown_periods) : portrait_periods;
     const auto detail = static_cast<std::size_t>(portrait_detail(model_, options_, shown));
     r.portrait.phases = options_.dense_phases * static_cast<int>(detail);
-    const std::vector<double> fine = analysis::uniform_phases(period, r.portrait.phases);
-    for (int k = 0; k < options_.history_periods; ++k) {
+    const std::vector<double> fine = analysis::uniform_phases(period, r.portrait.phases * model_.mesh_periods);
+    const int kept = sections(options_.history_periods);
+    for (int k = 0; k < kept; ++k) {
       if (!go_on_()) break;
-      const bool drawn = k >= options_.history_periods - shown;
+      const bool drawn = k >= kept - sections(shown);
       const integrate::Evolution e = own_flow->evolve(
           y, 0.0, period, drawn ? fine : samples, [&](std::size_t j, double s, std::span<const double> now) {
             recorder.recording(s, now);
@@ -346,10 +387,10 @@ class Run {
 
   /// Of the periods of the history.
   [[nodiscard]] StageRecord statistics(const History& history) const {
-    ResponseStatistics all(model_, options_.dense_phases);
+    ResponseStatistics all(model_, dense_phases());
     const auto own_flow = flow();
     std::vector<double> y = state_;
-    for (std::size_t row = 0; row < history.rows(); row += static_cast<std::size_t>(options_.dense_phases))
+    for (std::size_t row = 0; row < history.rows(); row += static_cast<std::size_t>(dense_phases()))
       if (!own_flow
                ->evolve(y, 0.0, own_flow->field().period, all.phases(),
                         [&](std::size_t, double, std::span<const double> now) { all.see(now); })
@@ -405,9 +446,10 @@ class Run {
       model_.deflections(s, now.data(), d);
       return d.sun_planet[0] - model_.sun_planet_half_gap;
     };
-    analysis::SurfaceSection section = analysis::surface_section(
-        *own_flow, y, surface, analysis::SectionCrossing::rising,
-        r.orbit ? r.point.period : recording_.recorded_periods, recording_.output_phases, go_on_);
+    analysis::SurfaceSection section =
+        analysis::surface_section(*own_flow, y, surface, analysis::SectionCrossing::rising,
+                                  r.orbit ? r.point.period : sections(recording_.recorded_periods),
+                                  recording_.output_phases * model_.mesh_periods, go_on_);
     for (std::size_t k = 0; k < section.section.size(); ++k) {
       model_.deflections(section.phase[k], section.section.point(k).data(), d);
       r.crossing_rate.push_back(d.sun_planet_rate[0]);
@@ -437,7 +479,7 @@ class Run {
   }
 
   void find_exponents(RunResult& r, const TangentFlow& tangent_flow) {
-    const double period = 2.0 * std::numbers::pi;
+    const double period = model_.period;
     const auto tangents = kept(tangent_flow(true), RunPart::exponents);
     const auto divergence = kept(exact_flow(options_.check_tolerance, true, true), RunPart::divergence);
     // The divergence is averaged along the same trajectory: over each interval, from the state at its beginning.
@@ -446,6 +488,7 @@ class Run {
     std::size_t intervals = 0;
     analysis::SpectrumOptions o;
     o.intervals = options_.exponent_periods;
+    if (model_.mesh_periods > 1) o.intervals = std::max(sections(o.intervals), least_intervals);
     std::vector<double> first;
     o.begins = [&](double s, std::span<const double> y) {
       if (intervals >= checked) return;
@@ -509,7 +552,7 @@ class Run {
     if (!r.multipliers) return;
     std::vector<analysis::Estimate> exponents = r.exponents.per_s;
     std::sort(exponents.begin(), exponents.end(), [](const auto& a, const auto& b) { return a.value > b.value; });
-    const double time = 2.0 * std::numbers::pi * r.point.period;
+    const double time = model_.period * r.point.period;
     double most = 0.0;
     for (std::size_t i = 0; i < exponents.size(); ++i) {
       const double modulus = std::abs(r.multipliers->values[i]);
@@ -551,6 +594,19 @@ class Run {
 };
 
 }  // namespace
+
+std::string shaft_order_words(double frequency, const std::vector<model::Shaft>& shafts, double tolerance) {
+  const double harmonic = std::round(frequency);
+  for (const model::Shaft& shaft : shafts) {
+    const double order = (frequency - harmonic) * shaft.teeth;
+    if (std::abs(order - std::round(order)) > tolerance * shaft.teeth || std::round(order) == 0.0) continue;
+    const std::string part = std::to_string(std::abs(static_cast<long>(std::round(order)))) + "/" +
+                             std::to_string(shaft.teeth) + " (" + shaft.member + ")";
+    if (harmonic == 0.0) return part;
+    return std::to_string(static_cast<long>(harmonic)) + (order < 0.0 ? " - " : " + ") + part;
+  }
+  return {};
+}
 
 std::size_t History::index_of(const std::string& column) const {
   return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());

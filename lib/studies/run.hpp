@@ -69,7 +69,14 @@ struct SignalSpectrum {
   analysis::Spectrum spectrum;  ///< frequency in mesh frequencies
   std::vector<analysis::Harmonic> lines{};  ///< if exact: p / n with their labels
   std::vector<analysis::Peak> peaks{};      ///< else
+  std::vector<model::Shaft> shafts{};       ///< whose orders are between those of the mesh
 };
+
+/// "1 + 2/27 (sun)": a frequency that is not a multiple of the mesh frequency, by the order of the one shaft that it
+/// belongs to; empty if there is none.
+/// @param tolerance  of the frequency, in mesh frequencies
+[[nodiscard]] std::string shaft_order_words(double frequency, const std::vector<model::Shaft>& shafts,
+                                            double tolerance);
 
 /// What the full Lyapunov spectrum is checked against.
 struct ExponentChecks {
@@ -106,6 +113,7 @@ struct RunResult {
   std::optional<double> table_displacement{};
   double friction_table_error = 0;  ///< of friction over normal force between the rows of its tables [-]
   std::optional<analysis::FloquetMultipliers> multipliers{};  ///< if periodic
+  int mesh_periods = 1;  ///< after which errors repeat: between two points of the section
   double omega = 0;                                           ///< Omega: exponents per s times Omega are per tau
   double omega_sn = 0;                                        ///< of the scale of time [rad/s]
 };

@@ -3,6 +3,10 @@
 
 namespace epicyclic::studies {
 
+/// With errors of shafts the section is taken once per common period. If that has more mesh periods than this, a run
+/// states no regime, multipliers and exponents.
+inline constexpr int section_periods_max = 128;
+
 struct RunOptions {
   int exponent_periods = 500;  ///< mesh periods that Lyapunov exponents are counted over; 0: none are computed
   int dense_phases = 128;      ///< samples per mesh period of histories and spectra

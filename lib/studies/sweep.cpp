@@ -112,10 +112,11 @@ class PointRun {
   }
 
   void keep_spectrum() {
-    const auto phases = static_cast<std::size_t>(recording_.output_phases);
+    const int in_mesh_period = recording_.output_phases / model_.mesh_periods;
+    const auto phases = static_cast<std::size_t>(in_mesh_period);
     if (watch_.signal().size() < 2) return;
-    analysis::Spectrum s = analysis::averaged_spectrum(watch_.signal(), 1.0 / recording_.output_phases,
-                                                       spectrum_periods * phases, analysis::Window::hann);
+    analysis::Spectrum s = analysis::averaged_spectrum(watch_.signal(), 1.0 / in_mesh_period, spectrum_periods * phases,
+                                                       analysis::Window::hann);
     const double kept = spectrum_orders / s.resolution;
     if (kept + 1.0 < static_cast<double>(s.amplitude.size())) s.amplitude.resize(static_cast<std::size_t>(kept) + 1);
     result_.spectrum = std::move(s.amplitude);

@@ -103,7 +103,7 @@ Real potential(const gear::Stage& stage, const Scales& scales, Real w, Real s, c
     v += k_unit * rp.stiffness(i, s) * gap_potential(d_rp, b_rp, w);
     const Real d_x = x - x_c + u_c * std::sin(phi);
     const Real d_y = y - y_c - u_c * std::cos(phi);
-    v += k(stage.planet.bearing_N_per_m) * (d_x * d_x + d_y * d_y) / 2;
+    v += k(stage.planet.bearing_N_per_m[i]) * (d_x * d_x + d_y * d_y) / 2;
   }
   return v;
 }
@@ -118,9 +118,9 @@ std::array<T, dof> forces(const Parameters<T, planets>& p, std::size_t segment, 
   a.y_s *= p.mass_s;
   a.w_s *= p.inertia_s;
   for (std::size_t i = 0; i < planets; ++i) {
-    a.x_p[i] *= p.mass_p;
-    a.y_p[i] *= p.mass_p;
-    a.w_p[i] *= p.inertia_p;
+    a.x_p[i] *= p.mass_p[i];
+    a.y_p[i] *= p.mass_p[i];
+    a.w_p[i] *= p.inertia_p[i];
   }
   a.x_r *= p.mass_r;
   a.y_r *= p.mass_r;
@@ -134,7 +134,8 @@ std::array<T, dof> forces(const Parameters<T, planets>& p, std::size_t segment, 
 }
 
 void without_damping_and_loads(Parameters<double, planets>& p) {
-  p.damping_s = p.damping_r = p.damping_c = p.torsion_damping_r = p.torsion_damping_c = p.bearing_damping_p = 0.0;
+  p.damping_s = p.damping_r = p.damping_c = p.torsion_damping_r = p.torsion_damping_c = 0.0;
+  p.bearing_damping_p.fill(0.0);
   p.sun_planet.damping = p.ring_planet.damping = 0.0;
   p.drive = p.ring_drive = p.carrier_load = 0.0;
 }

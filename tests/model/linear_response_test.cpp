@@ -100,9 +100,8 @@ std::array<double, 2> balanced_means(const gear::Stage& s, const Scales& scales,
   Coordinates<double, planets> mass;
   mass.x_s = mass.y_s = p.mass_s;
   mass.w_s = p.inertia_s;
-  mass.x_p.fill(p.mass_p);
-  mass.y_p.fill(p.mass_p);
-  mass.w_p.fill(p.inertia_p);
+  mass.x_p = mass.y_p = p.mass_p;
+  mass.w_p = p.inertia_p;
   mass.x_r = mass.y_r = p.mass_r;
   mass.u_r = p.inertia_r;
   mass.x_c = mass.y_c = p.mass_c;

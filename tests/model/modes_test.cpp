@@ -175,9 +175,10 @@ TEST(ModalEnergies, ElasticSharesAreTheSensitivitiesToTheStiffnesses) {
     const std::vector<Mode> found = modes(stage, scales);
     const auto scaled = [&](Element element, double factor) {
       gear::Stage s = stage;
+      double bearing = s.planet.bearing_N_per_m;
       double* const stiffness[] = {&s.sun_planet_mesh.stiffness_N_per_m,
                                    &s.ring_planet_mesh.stiffness_N_per_m,
-                                   &s.planet.bearing_N_per_m,
+                                   &bearing,
                                    &s.sun.support_N_per_m,
                                    &s.sun.torsional_support_N_per_m,
                                    &s.ring.support_N_per_m,
@@ -185,6 +186,7 @@ TEST(ModalEnergies, ElasticSharesAreTheSensitivitiesToTheStiffnesses) {
                                    &s.carrier.support_N_per_m,
                                    &s.carrier.torsional_support_N_per_m};
       *stiffness[static_cast<std::size_t>(element)] *= factor;
+      s.planet.bearing_N_per_m = bearing;
       return modes(s, scales);
     };
     for (std::size_t k = 0; k < element_count; ++k) {

@@ -59,6 +59,32 @@ inline gear::Stage star(gear::Stage s) {
   return s;
 }
 
+/// The sun grounded, driven by the carrier; the ring is the output.
+inline gear::Stage fixed_sun(gear::Stage s) {
+  s.boundary = gear::Boundary::fixed_sun;
+  s.driver = gear::Driver::carrier;
+  s.ring.torsional_support_N_per_m = s.carrier.torsional_support_N_per_m = 0.0;
+  s.sun.torsional_support_N_per_m = 6e8;
+  return s;
+}
+
+/// A differential: no member is grounded.
+inline gear::Stage differential(gear::Stage s) {
+  s.boundary = gear::Boundary::free;
+  s.carrier_to_sun_speed = -0.4;
+  s.ring.torsional_support_N_per_m = s.carrier.torsional_support_N_per_m = 0.0;
+  s.load = {std::nullopt, 600.0};
+  return s;
+}
+
+/// Masses, inertias and bearings of three planets differ.
+inline gear::Stage with_unlike_planets(gear::Stage s) {
+  s.planet.mass_kg = std::vector<double>{1.037, 1.2, 0.9};
+  s.planet.inertia_over_r2_kg = std::vector<double>{0.974, 1.1, 0.8};
+  s.planet.bearing_N_per_m = std::vector<double>{1e8, 1.3e8, 0.7e8};
+  return s;
+}
+
 inline gear::Stage rigid_ring(gear::Stage s) {
   s.ring.torsional_support_N_per_m = gear::rigid;
   return s;

@@ -58,19 +58,19 @@ class Ledger {
     e += 0.5 * (p_.inertia_s * v.w_s * v.w_s + p_.inertia_r * v.u_r * v.u_r + p_.inertia_c * v.u_c * v.u_c);
     e += 0.5 * p_.support_s * 2.0 * (gap_energy(q.x_s, p_.sun_half_gap) + gap_energy(q.y_s, p_.sun_half_gap));
     e += 0.5 * p_.support_r * square(q.x_r, q.y_r) + 0.5 * p_.support_c * square(q.x_c, q.y_c);
-    e += 0.5 * p_.torsion_r * q.u_r * q.u_r + 0.5 * p_.torsion_c * q.u_c * q.u_c;
+    e += 0.5 * p_.torsion_s * q.w_s * q.w_s + 0.5 * p_.torsion_r * q.u_r * q.u_r + 0.5 * p_.torsion_c * q.u_c * q.u_c;
     for (std::size_t i = 0; i < planets; ++i) {
-      e += 0.5 * p_.mass_p * square(v.x_p[i], v.y_p[i]) + 0.5 * p_.inertia_p * v.w_p[i] * v.w_p[i];
+      e += 0.5 * p_.mass_p[i] * square(v.x_p[i], v.y_p[i]) + 0.5 * p_.inertia_p[i] * v.w_p[i] * v.w_p[i];
       double x = q.x_p[i];
       double y_ = q.y_p[i];
       if (p_.gyroscopic_relative) {
         x += q.u_c * p_.sin_phi[i];
         y_ -= q.u_c * p_.cos_phi[i];
       }
-      e -= 0.5 * p_.mass_p * wc2 * square(x, y_);
+      e -= 0.5 * p_.mass_p[i] * wc2 * square(x, y_);
       // (r_c + r)^2 / 2 along each planet's radius, the part that is linear in the displacement r.
-      e -= p_.centrifugal * (q.x_p[i] * p_.cos_phi[i] + q.y_p[i] * p_.sin_phi[i]);
-      e += 0.5 * p_.bearing_p * square(g.d.carrier_x[i], g.d.carrier_y[i]);
+      e -= p_.centrifugal[i] * (q.x_p[i] * p_.cos_phi[i] + q.y_p[i] * p_.sin_phi[i]);
+      e += 0.5 * p_.bearing_p[i] * square(g.d.carrier_x[i], g.d.carrier_y[i]);
       e += scales_.stiffness(sp_.stiffness(i, s)) * gap_energy(g.sun_planet.delta[i], p_.sun_planet.half_gap);
       e += scales_.stiffness(rp_.stiffness(i, s)) * gap_energy(g.ring_planet.delta[i], p_.ring_planet.half_gap);
     }
@@ -91,7 +91,7 @@ class Ledger {
     w.torques = p_.drive * v.w_s + p_.ring_drive * v.u_r - p_.carrier_load * v.u_c;
     w.support_damping = -p_.damping_s * square(v.x_s, v.y_s) - p_.damping_r * square(v.x_r, v.y_r) -
                         p_.damping_c * square(v.x_c, v.y_c) - p_.torsion_damping_r * v.u_r * v.u_r -
-                        p_.torsion_damping_c * v.u_c * v.u_c;
+                        p_.torsion_damping_c * v.u_c * v.u_c - p_.torsion_damping_s * v.w_s * v.w_s;
     const auto mesh = [&](const MeshLaw& law, const auto& at, double half_gap, double damping, std::size_t i) {
       const double k = scales_.stiffness(law.stiffness(i, s));
       const double k_rate = omega * scales_.stiffness(law.stiffness_slope(i, s));
@@ -104,7 +104,7 @@ class Ledger {
     for (std::size_t i = 0; i < planets; ++i) {
       mesh(sp_, g.sun_planet, p_.sun_planet.half_gap, p_.sun_planet.damping, i);
       mesh(rp_, g.ring_planet, p_.ring_planet.half_gap, p_.ring_planet.damping, i);
-      w.support_damping -= p_.bearing_damping_p * square(g.d_rate.carrier_x[i], g.d_rate.carrier_y[i]);
+      w.support_damping -= p_.bearing_damping_p[i] * square(g.d_rate.carrier_x[i], g.d_rate.carrier_y[i]);
       const auto& sun = p_.sun_planet;
       const auto& ring = p_.ring_planet;
       w.friction += g.sun_planet.friction[i] * (-(v.x_s - v.x_p[i]) * sun.cosine[i] + (v.y_s - v.y_p[i]) * sun.sine[i]);
@@ -195,6 +195,8 @@ TEST(Energy, WhatTheVibrationGainsIsTheWorkDoneOnIt) {
       {"fixed_ring", nonlinear, {}, true},
       {"as_printed", problems::as_printed(nonlinear), {}, true},
       {"star", problems::star(nonlinear), {}, true},
+      {"fixed_sun", problems::fixed_sun(problems::with_unlike_planets(nonlinear)), {}, true},
+      {"free", problems::differential(problems::with_unlike_planets(nonlinear)), {}, true},
       {"fixed_ring closed", closed, {}, false},
       {"literal closed", problems::as_printed(closed), {}, false},
       {"fixed_ring without frame terms", nonlinear, {model::GapDamping::always, model::Gyroscopic::off, 0.0}, true},

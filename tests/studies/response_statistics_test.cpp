@@ -289,9 +289,9 @@ gear::Stage loaded(gear::Stage stage, double torque_Nm) {
 }
 /// Supports and bearings so stiff that planets cannot give way to each other.
 gear::Stage stiffly_held(gear::Stage stage) {
-  for (double* support : {&stage.sun.support_N_per_m, &stage.ring.support_N_per_m, &stage.carrier.support_N_per_m,
-                          &stage.planet.bearing_N_per_m})
+  for (double* support : {&stage.sun.support_N_per_m, &stage.ring.support_N_per_m, &stage.carrier.support_N_per_m})
     *support = 1e10;
+  stage.planet.bearing_N_per_m = 1e10;
   return stage;
 }
 

@@ -53,6 +53,7 @@ const StudyKind& run_kind() {
       },
       .sweep = [](const Study& study) { return studies::sweep_of_one(study.mesh_frequency_ratio, study.recording()); },
       .plan = &plan_of_sweep,
+      .with_shaft_errors = true,
       .warn = &warn_without_tangents,
       .points_kept = PointsKept::tables,
       .plot = {PlotForm::histories, {"history.csv"}, "delta_sp_1"},

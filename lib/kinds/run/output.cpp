@@ -45,6 +45,13 @@ bool is_mesh_harmonic(double frequency, double resolution) {
   return std::abs(frequency - std::round(frequency)) < 0.5 * resolution;
 }
 
+/// "1/2", or by the order of a shaft "1 + 1/27 (sun)".
+std::string line_words(const SignalSpectrum& s, const analysis::Harmonic& line) {
+  const std::string words = studies::shaft_order_words(
+      static_cast<double>(line.order) / static_cast<double>(line.period), s.shafts, rounding);
+  return words.empty() ? line.label() : words;
+}
+
 std::vector<std::string> state_names(const RunOutput& output, std::size_t dimension) {
   const auto end = output.points.poincare_columns.begin() +
                    static_cast<std::ptrdiff_t>(std::min(dimension, output.points.poincare_columns.size()));
@@ -104,7 +111,7 @@ void write_spectrum_csv(const std::filesystem::path& file, const std::vector<Sig
       for (const analysis::Harmonic& line : s.lines) {
         const double frequency = static_cast<double>(line.order) / static_cast<double>(line.period);
         if (frequency > tabulated_frequency) break;
-        csv.row(s.signal, s.unit, exact, frequency, line.label(), line.amplitude, line.phase);
+        csv.row(s.signal, s.unit, exact, frequency, line_words(s, line), line.amplitude, line.phase);
       }
       continue;
     }
@@ -457,6 +464,11 @@ analysis::Estimate largest_exponent(const RunResult& r) {
   return {std::log(modulus) / time, std::log1p(r.multipliers->errors.front() / modulus) / time};
 }
 
+double recorded_mesh_periods(const RunOutput& output, const RunResult& r) {
+  return r.mesh_periods == 1 ? static_cast<double>(output.points.sweep.recording.recorded_periods)
+                             : static_cast<double>(r.point.poincare_rows()) * r.mesh_periods;
+}
+
 std::string regime_text(const RunOutput& output, const RunResult& r) {
   const studies::PointResult& p = r.point;
   const analysis::Evidence& e = p.evidence;
@@ -509,14 +521,13 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
                                  : std::string("Integrated for the classification: the record alone."));
     if (!e.note.empty()) text += bullet(fmt::format("Note: {}.", unstopped(e.note)));
   }
-  text += bullet(p.recurrence.period > 0
-                     ? fmt::format("The record of {:g} mesh periods repeats after {}, to {:.2g} [b_c, b_c per tau].",
-                                   static_cast<double>(output.points.sweep.recording.recorded_periods),
-                                   mesh_periods(p.recurrence.period), p.recurrence.error)
-                     : fmt::format("The record of {:g} mesh periods does not repeat: nearest after {}, to {:.2g} "
-                                   "[b_c, b_c per tau].",
-                                   static_cast<double>(output.points.sweep.recording.recorded_periods),
-                                   mesh_periods(p.recurrence.best_period), p.recurrence.error));
+  text += bullet(
+      p.recurrence.period > 0
+          ? fmt::format("The record of {:g} mesh periods repeats after {}, to {:.2g} [b_c, b_c per tau].",
+                        recorded_mesh_periods(output, r), mesh_periods(p.recurrence.period), p.recurrence.error)
+          : fmt::format("The record of {:g} mesh periods does not repeat: nearest after {}, to {:.2g} "
+                        "[b_c, b_c per tau].",
+                        recorded_mesh_periods(output, r), mesh_periods(p.recurrence.best_period), p.recurrence.error));
   return text;
 }
 
@@ -548,6 +559,19 @@ std::string tensile_text(const RunOutput& output, const RunResult& r) {
          wrapped(fmt::format("The tensile force is that of the damping {}. See docs/reference/model_options.md.",
                              always ? "through the open gap (/model/gap_damping \"always\")"
                                     : "before contact is lost (/model/gap_damping \"contact_slope\")"));
+}
+
+/// What a section is with errors of shafts.
+std::string section_text(const RunResult& r) {
+  std::string text = fmt::format(
+      "Eccentricities and pitch errors repeat after {} mesh periods, which is here one period.", r.mesh_periods);
+  text +=
+      r.mesh_periods <= studies::section_periods_max
+          ? fmt::format(" The section has one point in each, and the periods below are multiples of {} mesh periods.",
+                        r.mesh_periods)
+          : fmt::format(" Regime, multipliers and exponents are not sought beyond {} mesh periods.",
+                        studies::section_periods_max);
+  return wrapped(text);
 }
 
 std::string meshes_text(const RunOutput& output, const RunResult& r) {
@@ -680,13 +704,17 @@ std::vector<SpectralLine> strongest_lines(const SignalSpectrum& signal, std::siz
   std::vector<SpectralLine> lines;
   for (const analysis::Harmonic& h : signal.lines)
     if (h.order > 0)
-      lines.push_back(
-          {h.label(), static_cast<double>(h.order) / static_cast<double>(h.period), h.amplitude, h.of_forcing()});
+      lines.push_back({line_words(signal, h), static_cast<double>(h.order) / static_cast<double>(h.period), h.amplitude,
+                       h.of_forcing()});
   for (const analysis::Peak& p : signal.peaks) {
     if (p.frequency < signal.spectrum.frequency(mean_bins)) continue;
     const bool of_mesh = is_mesh_harmonic(p.frequency, signal.spectrum.resolution);
-    lines.push_back(
-        {of_mesh ? std::to_string(p.harmonic) : short_text(p.frequency, 4), p.frequency, p.amplitude, of_mesh});
+    const std::string of_shaft =
+        studies::shaft_order_words(p.frequency, signal.shafts, 0.5 * signal.spectrum.resolution);
+    lines.push_back({of_mesh            ? std::to_string(p.harmonic)
+                     : of_shaft.empty() ? short_text(p.frequency, 4)
+                                        : of_shaft,
+                     p.frequency, p.amplitude, of_mesh});
   }
   std::stable_sort(lines.begin(), lines.end(),
                    [](const SpectralLine& a, const SpectralLine& b) { return a.amplitude > b.amplitude; });
@@ -771,7 +799,7 @@ std::string run_summary(const RunOutput& output, const RunResult& r) {
                                    r.point.message.empty() ? "no reason was given" : unstopped(r.point.message)));
     return text + work + files_text(output, r);
   }
-  text += "\n## Regime\n\n" + regime_text(output, r);
+  text += "\n## Regime\n\n" + (r.mesh_periods > 1 ? section_text(r) + "\n" : std::string()) + regime_text(output, r);
   if (!r.meshes.empty()) text += meshes_text(output, r) + bearings_text(r.point.meshes);
   if (!r.spectra.empty()) text += spectra_text(r);
   if (has_exponents(r)) text += exponents_text(r);

@@ -56,7 +56,7 @@ void make_phase_coefficients(const LaneParameters<N, W>& p, std::size_t count, c
     for (std::size_t k = 0; k < together; ++k) angle[k] = sine_cosine(s[first + k]);
     for (std::size_t k = 0; k < together; ++k)
       new (phase_coefficients + first + k)
-          PhaseCoefficients<Lanes<W>, N>(constants, HarmonicBasis<Lanes<W>>(angle[k], harmonics));
+          PhaseCoefficients<Lanes<W>, N>(constants, HarmonicBasis<Lanes<W>>(angle[k], harmonics), s[first + k]);
     interpolate(constants.sun_planet, p.segment().sun_planet, together, s + first, phase_coefficients + first,
                 &PhaseCoefficients<Lanes<W>, N>::sun_planet);
     interpolate(constants.ring_planet, p.segment().ring_planet, together, s + first, phase_coefficients + first,
