@@ -265,7 +265,7 @@ double inertia_torque_Nm(const gear::Stage& stage, double rate) {
   };
   const double z_p = static_cast<double>(stage.planet.teeth.value());
   double energy = inertia(stage.sun.inertia_over_r2_kg, stage.sun.base_radius_mm) * per_mesh.sun * per_mesh.sun;
-  // A planet turns against the carrier by omega_m / z_p, backward.
+  // The speed of a planet against the carrier is omega_m / z_p, backward.
   const double planet = per_mesh.carrier - 1.0 / z_p;
   const auto count = static_cast<double>(stage.planet_count);
   energy += count * inertia(stage.planet.inertia_over_r2_kg, stage.planet.base_radius_mm) * planet * planet;

@@ -6,8 +6,8 @@
 // The phase, and not the time, is sampled evenly, so that orders of the mesh frequency stay on their bins while the
 // speed changes (order tracking). Within a window the speed changes by 2 pi W a / Omega; amplitudes are those of a
 // response that changes little over a window. Ramps consist of whole windows: they end at the last one that does not
-// pass the end of the range. A state is carried from ramp to ramp. Regimes are not claimed: no part of a response at a
-// changing speed repeats.
+// pass the end of the range. Each ramp starts from the last state of the one before. Regimes are not claimed: no part
+// of a response at a changing speed repeats.
 #pragma once
 
 #include <cstddef>

@@ -34,7 +34,7 @@ const Table<Study>& ramp_table() {
     t.number("rate_rpm_per_s", of(&RampOptions::rate_rpm_per_s), between(1e-6, 1e9),
              "Change of the sun's speed [rpm/s].");
     t.choices("directions", of(&RampOptions::directions), direction_choices(),
-              "Directions, one after the other; the state is carried from one to the next.");
+              "Directions, one after the other; each starts from the last state of the one before.");
     t.integer("hold_periods", of(&RampOptions::hold_periods), between(0, 1e7),
               "Mesh periods at constant speed before each direction [-].");
     t.integer("window_periods", of(&RampOptions::window_periods), between(2, 1000),
