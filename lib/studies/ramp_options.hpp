@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "studies/sweep_options.hpp"
@@ -19,6 +20,7 @@ struct RampOptions {
   int output_phases = 64;               ///< samples per mesh period
   int orders = 4;                       ///< highest order, of the mesh frequency
   std::vector<double> torque_time_s{};  ///< of a torque over time, from the beginning of the first ramp, rising [s]
+  std::string torque_file{};            ///< that they are read from, until the input is loaded
   std::vector<double> torque_Nm{};      ///< as many; linear between, constant before and behind [N m]
 };
 

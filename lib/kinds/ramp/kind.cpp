@@ -45,6 +45,8 @@ const Table<Study>& ramp_table() {
               "Times of a torque on the sun that changes, from the beginning of the first ramp, rising [s].");
     t.numbers("torque_Nm", of(&RampOptions::torque_Nm), between(-1e12, 1e12), 1, 100000,
               "Torque on the sun at each time, in place of that of the load; linear between [N m].");
+    t.text("torque_file", of(&RampOptions::torque_file),
+           "CSV file with the columns time_s and torque_Nm, in place of both; a path relative to the study.");
     add_initial_state(t);
     t.rule(KeyRule::Kind::exactly_one, {"from", "from_sun_speed_rpm"});
     t.rule(KeyRule::Kind::exactly_one, {"to", "to_sun_speed_rpm"});
