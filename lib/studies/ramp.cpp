@@ -19,7 +19,7 @@ namespace epicyclic::studies {
 
 namespace {
 
-constexpr double whole = 2.0 * std::numbers::pi;
+constexpr double mesh_period = 2.0 * std::numbers::pi;
 
 /// Linear between the rows, constant before and behind them.
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
@@ -46,7 +46,7 @@ class Ramps {
         integrator_(integrator),
         control_(control),
         ramp_(std::make_shared<model::SpeedRamp>()),
-        samples_(analysis::uniform_phases(whole, options.output_phases)) {
+        samples_(analysis::uniform_phases(mesh_period, options.output_phases)) {
     result_.course = ramp_course(options, stage, scales);
     result_.inertia_torque_Nm = inertia_torque_Nm(stage, result_.course.rate * scales.omega_sn * scales.omega_sn);
     if (!options.torque_time_s.empty())
@@ -64,7 +64,7 @@ class Ramps {
       make_model(ramp_->omega);
       if (first) state_ = start.empty() ? model_.default_start : start;
       // Time begins with the first ramp.
-      if (first) ramp_->tau = -whole * options_.hold_periods / ramp_->omega;
+      if (first) ramp_->tau = -mesh_period * options_.hold_periods / ramp_->omega;
       first = false;
       if (!hold()) return ended();
       ramp_->rate = (up ? 1.0 : -1.0) * result_.course.rate;
@@ -89,9 +89,9 @@ class Ramps {
 
   /// One mesh period.
   bool period(std::span<const double> samples, const integrate::Observer& observer) {
-    const integrate::Evolution e = flow_->evolve(state_, 0.0, whole, samples, observer);
-    const double tau = ramp_->tau_at(whole);
-    ramp_->omega = ramp_->omega_at(whole);
+    const integrate::Evolution e = flow_->evolve(state_, 0.0, mesh_period, samples, observer);
+    const double tau = ramp_->tau_at(mesh_period);
+    ramp_->omega = ramp_->omega_at(mesh_period);
     ramp_->tau = tau;
     result_.outcome = e.outcome;
     result_.message = e.message;
@@ -99,7 +99,7 @@ class Ramps {
   }
 
   bool hold() {
-    const double end = ramp_->tau + whole * options_.hold_periods / ramp_->omega;
+    const double end = ramp_->tau + mesh_period * options_.hold_periods / ramp_->omega;
     if (const auto known = recalled(0)) {
       resume(*known);
     } else {
@@ -132,13 +132,13 @@ class Ramps {
     RampWindow w;
     w.direction = direction;
     w.number = number;
-    const double half = 0.5 * whole * periods;
+    const double half = 0.5 * mesh_period * periods;
     w.omega = ramp_->omega_at(half);
     w.tau = ramp_->tau_at(half);
     w.torque_Nm = gear::torques(stage_, w.omega * scales_.omega_sn).sun * (torque_ ? torque_(w.tau) : 1.0);
     if (has_lubricated_friction(stage_)) make_model(w.omega);
     const std::size_t count = numbers_of_window(options_);
-    const double end = whole * periods;
+    const double end = mesh_period * periods;
     const model::SpeedRamp next = {ramp_->omega_at(end), ramp_->rate, ramp_->tau_at(end)};
     if (const auto known = recalled(count)) {
       restore(w, std::span(*known).first(count));
@@ -249,7 +249,7 @@ RampCourse ramp_course(const RampOptions& options, const gear::Stage& stage, con
   c.rate = options.rate_per_tau ? *options.rate_per_tau : options.rate_rpm_per_s.value() / rpm / scales.omega_sn;
   c.window_periods = options.window_periods;
   const double phase = (c.to - c.from) * (c.to + c.from) / (2.0 * c.rate);
-  const double windows = phase / (whole * options.window_periods);
+  const double windows = phase / (mesh_period * options.window_periods);
   constexpr double most = 1e6;
   if (windows > most) throw DomainError("a ramp of more than 1e6 windows; the rate is too low");
   constexpr double rounding = 1e-9;  // of a range that was chosen to be whole windows
