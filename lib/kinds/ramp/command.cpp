@@ -93,17 +93,17 @@ int run_ramp(const Arguments& arguments) {
                                           {"undrawn", undrawn}});
   std::error_code error;
   std::filesystem::remove(folder.file("journal.bin"), error);  // the tables hold all that follows from it
-  nlohmann::json json = {{"folder", folder.path().string()},
-                         {"windows", result->windows.size()},
-                         {"complete", reached},
-                         {"figures", nlohmann::json::array()}};
+  nlohmann::json printed = {{"folder", folder.path().string()},
+                            {"windows", result->windows.size()},
+                            {"complete", reached},
+                            {"figures", nlohmann::json::array()}};
   for (const reports::DrawnFigure& figure : figures)
-    if (figure.outcome.drawn()) json["figures"].push_back(figure.file.string());
+    if (figure.outcome.drawn()) printed["figures"].push_back(figure.file.string());
   if (arguments.json) {
-    print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print("{}\n", printed.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     print("{}\n", summary);
-    for (const auto& figure : json["figures"]) print("figure: {}\n", figure.get<std::string>());
+    for (const auto& figure : printed["figures"]) print("figure: {}\n", figure.get<std::string>());
   }
   return reached && undrawn == 0 ? done : done_with_failures;
 }

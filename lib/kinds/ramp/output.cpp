@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -81,7 +83,7 @@ std::vector<const RampWindow*> windows_of(const RampResult& result, Direction di
 const char* speed_label() { return "Mesh frequency ratio  Ω"; }
 
 figures::FigureText text_of(const RampOutput& output, const std::string& what, const char* y_label) {
-  return {output.title + ", " + what, speed_label(), y_label};
+  return {figures::verbatim_text(output.title) + ", " + what, speed_label(), y_label};
 }
 
 template <class Value>
@@ -106,12 +108,12 @@ DrawnFigure draw_curves(const std::filesystem::path& folder, std::string_view st
 }
 
 /// Amplitude over speed and frequency: the order of a cell is its frequency over the mesh frequency of its window, and
-/// between two orders of the analysis the larger amplitude is shown.
+/// a cell shows the largest amplitude of the orders within it, or that of the nearest one.
 DrawnFigure draw_campbell(const std::filesystem::path& folder, const RampOutput& output, const RampResult& result,
                           Direction direction) {
   const std::string word = store::direction_word(direction);
   const std::string stem = "campbell_" + word;
-  constexpr double floor_part = 1e-4;  // of the largest amplitude
+  constexpr double floor_part = 1e-3;  // of the largest amplitude
   constexpr std::size_t rows = 240;
   constexpr std::size_t most_columns = 400;
   auto windows = windows_of(result, direction);
@@ -132,8 +134,10 @@ DrawnFigure draw_campbell(const std::filesystem::path& folder, const RampOutput&
     for (const RampWindow* w : shown) {
       const double bins = output.options.window_periods / w->omega;
       const auto last = static_cast<double>(w->orders.size() - 1);
-      const double low = std::floor((frequency - 0.5 * height) * bins);
-      const double high = std::ceil((frequency + 0.5 * height) * bins);
+      // The largest of the bins within the cell, or the nearest one.
+      double low = std::ceil((frequency - 0.5 * height) * bins);
+      double high = std::floor((frequency + 0.5 * height) * bins);
+      if (low > high) low = high = std::round(frequency * bins);
       double amplitude = 0.0;
       for (double k = std::max(1.0, low); k <= std::min(last, high); ++k)
         amplitude = std::max(amplitude, w->orders[static_cast<std::size_t>(k)]);
@@ -170,14 +174,13 @@ std::string ramp_summary(const RampOutput& output, const RampResult& result) {
   const studies::RampCourse& c = result.course;
   std::string text = "# " + reports::markdown_cell(output.title) + "\n\n";
   text += reports::wrapped(fmt::format(
-              "The mesh frequency ratio changes by {} per unit of the dimensionless time, between {} and {}. The sun's "
-              "speed changes by {} rpm/s, between {} and {} rpm. A ramp has {} windows of {} mesh periods.",
-              number(c.rate), number(c.from), number(c.to), number(c.rate * output.sun_rpm * output.omega_sn),
-              number(c.from * output.sun_rpm), number(c.to * output.sun_rpm), c.windows, c.window_periods)) +
-          "\n";
-  text += reports::wrapped("Regimes are not claimed: a response at a changing speed does not repeat.") + "\n";
+      "The mesh frequency ratio changes by {} per unit of the dimensionless time, between {} and {}. The sun's "
+      "speed changes by {} rpm/s, between {} and {} rpm. A ramp has {} windows of {} mesh periods.",
+      number(c.rate), number(c.from), number(c.to), number(c.rate * output.sun_rpm * output.omega_sn),
+      number(c.from * output.sun_rpm), number(c.to * output.sun_rpm), c.windows, c.window_periods));
+  text += "\n" + reports::wrapped("Regimes are not claimed: a response at a changing speed does not repeat.");
   if (result.outcome != integrate::Outcome::reached)
-    text += reports::wrapped("**The integration ended early**: " + result.message + ".") + "\n";
+    text += "\n" + reports::wrapped("**The integration ended early**: " + result.message + ".");
   std::vector<std::vector<std::string>> rows{
       {"direction", "largest amplitude [b_c]", "at Omega", "largest force [N]", "at Omega", "longest contact loss"}};
   for (const Direction direction : {Direction::up, Direction::down}) {
@@ -197,15 +200,21 @@ std::string ramp_summary(const RampOutput& output, const RampResult& result) {
   text += reports::wrapped(
               "Amplitude: half of the range of the deflection of sun-planet mesh 1 over a window. Force: of "
               "any sun mesh. Contact loss: part of the samples of a window.") +
-          "\n\n## What the equations contain\n\n";
-  const auto bullet = [&](const std::string& item) { text += reports::wrapped("- " + item, "  ") + "\n"; };
+          "\n## What the equations contain\n\n";
+  const auto bullet = [&](const std::string& item) { text += reports::wrapped("- " + item, "  "); };
   bullet(
       "The mesh phase is the integral of the mesh frequency. Errors, speed of the carrier and centrifugal force "
       "follow the speed.");
+  double least = std::numeric_limits<double>::infinity();
+  double largest = -least;
+  for (const RampWindow& w : result.windows) {
+    least = std::min(least, w.torque_Nm);
+    largest = std::max(largest, w.torque_Nm);
+  }
   bullet(
       fmt::format("The inertia torques of the acceleration are left out. That of the whole train, about the sun, is "
-                  "{} N m.",
-                  number(result.inertia_torque_Nm)));
+                  "{} N m; that of the load is from {} to {} N m.",
+                  number(result.inertia_torque_Nm), number(least), number(largest)));
   if (!output.options.torque_time_s.empty())
     bullet("Both torques follow the given torque over time in one proportion.");
   if (output.lubricated) bullet("Friction coefficients are those of the speed in the middle of each window.");
