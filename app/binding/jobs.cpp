@@ -132,7 +132,7 @@ class Job {
     }
     py::list rows;
     for (const studies::PointSummary& point : points) {
-      if (columns_.empty()) columns_ = store::point_columns(point.meshes.sun_planet.size());
+      if (columns_.empty()) columns_ = store::point_columns_like(point);
       py::dict row;
       for (const store::PointColumn& column : columns_)
         std::visit([&](const auto& value) { row[py::str(column.name)] = value(point); }, column.value);

@@ -41,8 +41,9 @@ struct PlotArguments {
 
 /// What the command line gives to `init`, of a drawing.
 struct InitArguments {
-  std::vector<int> teeth;              ///< sun, planet, ring
-  std::vector<double> profile_shifts;  ///< likewise
+  std::vector<int> teeth;                 ///< sun, planet, ring
+  std::vector<double> profile_shifts;     ///< likewise
+  std::optional<double> helix_angle_deg;  ///< refused, with the reason
   std::optional<double> module_mm{}, pressure_angle_deg{}, width_mm{};
   std::optional<int> planets{};
   std::vector<double> angles_deg{};

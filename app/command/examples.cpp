@@ -39,6 +39,7 @@ constexpr Row rows[] = {
       "epicyclic basins tang2020_basins -o out/coarse --set /study/first/points=15"}},
     {"run", {"one operating point", "epicyclic run tang2020_run"}},
     {"run", {"a point of a finished sweep, at 3000 rpm", "epicyclic run --from out/speed:up=3000rpm -o out/point"}},
+    {"ramp", {"run-up and run-down of a stage", "epicyclic ramp tang2020_ramp"}},
     {"crosscheck", {"the same points by several methods", "epicyclic crosscheck tang2020_crosscheck"}},
     {"crosscheck", {"one point of a finished sweep", "epicyclic crosscheck --from out/speed:137 -o out/checked"}},
     {"tolerance", {"error bars of results", "epicyclic tolerance tang2020_tolerance"}},

@@ -14,6 +14,7 @@
 #include "core/atomic_file.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
+#include "input/helix.hpp"
 #include "input/json_source.hpp"
 #include "input/starter.hpp"
 #include "input/study_input.hpp"
@@ -36,6 +37,7 @@ constexpr const char* run_name = "point.json";
 
 input::Drawing drawing_of(const Arguments& arguments) {
   const InitArguments& given = arguments.init;
+  if (given.helix_angle_deg) throw InputError(std::string("--helix-angle: ") + input::no_helix);
   input::Drawing d;
   fs::path folder = fs::weakly_canonical(arguments.output);
   if (folder.filename().empty()) folder = folder.parent_path();  // "set/"

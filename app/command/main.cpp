@@ -136,6 +136,7 @@ void add_init_options(CLI::App& command, Arguments& arguments) {
                   "if X_RING = X_SUN + 2 X_PLANET")
       ->delimiter(',')
       ->expected(3);
+  command.add_option("--helix-angle", init.helix_angle_deg)->group("");  // refused, with the reason
   command.add_option("--width", init.width_mm, "face width [mm]; default 30");
   command.add_option("--planets", init.planets, "number of planets; default 3, or the number of --angles");
   command

@@ -106,8 +106,8 @@ void describe(Described& known, const std::vector<store::Column<Row>>& columns) 
 /// Columns of a table that this program knows; of the others the name says the unit.
 Described described_columns(const std::string& table) {
   Described known;
-  if (table == "points.csv") describe(known, store::point_columns(gear::planets_max));
-  if (table == "branch.csv") describe(known, store::branch_columns(gear::planets_max));
+  if (table == "points.csv") describe(known, store::point_columns(gear::planets_max, {}, {true, true}));
+  if (table == "branch.csv") describe(known, store::branch_columns(gear::planets_max, {true, true}));
   if (table == "special.csv") describe(known, store::special_columns());
   if (table == "loci.csv") describe(known, store::locus_columns());
   if (table == "points.csv") known.emplace("second_value", ReportColumn{"second_value", "", "of the second axis"});
@@ -503,7 +503,7 @@ class StudyReport {
     if (study_.contains("second_parameter"))
       more.push_back({"second_value", "", "of the second axis",
                       store::PointColumn::Getter<double>([](const auto& r) { return r.point.second_value; })});
-    const auto columns = store::point_columns(store_->read_summary(points_.front()).meshes.sun_planet.size(), more);
+    const auto columns = store::point_columns_like(store_->read_summary(points_.front()), more);
     std::vector<std::string> names;
     for (const auto& column : columns) names.push_back(column.name);
     CsvWriter csv(names);

@@ -44,6 +44,8 @@ struct SupportBearing {
   std::optional<int> balls{};                ///< Z
   std::optional<double> ball_diameter_mm{};  ///< D_w
   double contact_angle_deg = 0;              ///< alpha
+  std::optional<int> rollers{};              ///< Z of a roller bearing
+  std::optional<double> roller_length_mm{};  ///< l: effective length of a roller
 };
 
 struct OutputShaft {
@@ -96,6 +98,7 @@ struct Catalogue {
   Tips tips = Tips::shortened;
   ExternalGear sun, planet;
   std::optional<SupportBearing> sun_bearing;
+  std::optional<SupportBearing> planet_bearing{};
   RingGear ring;
   CarrierData carrier;
   StiffnessOptions stiffness;

@@ -230,16 +230,29 @@ void check_base_pitches(Problems& out, const Catalogue& c) {
             of_planet_base_pitch(c.ring.data, c.planet.data).module_mm, " mm in its place");
 }
 
+/// First and last bearing of each series: "6004 to 6024, ...".
+std::string known_series() {
+  std::string known;
+  // The last two digits are the bore.
+  const auto series = [](std::string_view name) { return name.substr(0, name.find_last_of("0123456789") - 1); };
+  const std::span<const BearingType> types = bearing_types();
+  for (std::size_t k = 0; k < types.size();) {
+    std::size_t last = k;
+    while (last + 1 < types.size() && series(types[last + 1].designation) == series(types[k].designation)) ++last;
+    known +=
+        (known.empty() ? "" : ", ") + std::string(types[k].designation) + " to " + std::string(types[last].designation);
+    k = last + 1;
+  }
+  return known;
+}
+
 void check_bearing_types(Problems& out, const Catalogue& c) {
-  for (const auto& [pointer, bearing] : {std::pair("/catalogue/sun_bearing", &c.sun_bearing),
-                                         std::pair("/catalogue/carrier/bearing", &c.carrier.bearing)})
-    if (*bearing && !bearing_data(**bearing)) {
-      std::string known;
-      for (const BearingType& type : bearing_types())
-        known += (known.empty() ? "" : ", ") + std::string(type.designation);
+  for (const auto& [pointer, bearing] :
+       {std::pair("/catalogue/sun_bearing", &c.sun_bearing), std::pair("/catalogue/planet_bearing", &c.planet_bearing),
+        std::pair("/catalogue/carrier/bearing", &c.carrier.bearing)})
+    if (*bearing && !bearing_data(**bearing))
       out.add(std::string(pointer) + "/type", "\"", (*bearing)->type, "\" is not among the bearings known here (",
-              known, "); give balls and ball_diameter_mm instead");
-    }
+              known_series(), "); give balls and ball_diameter_mm, or rollers and roller_length_mm, instead");
 }
 
 /// Whether sun and planet mesh at the centre distance, that of the data or without backlash.

@@ -526,6 +526,8 @@ std::vector<std::string> problems_for_dynamics(const Stage& s) {
        {std::pair("tangential", &s.planet.pin_error_tangential_um), std::pair("radial", &s.planet.pin_error_radial_um)})
     if (*errors)
       check_per_planet(out, std::string("/lumped/planet/pin_error_") + key + "_um", **errors, s.planet_count);
+  if (s.planet.bearing_clearance_half_um && !std::isfinite(s.planet.bearing_N_per_m))
+    out.add("/lumped/planet/bearing_clearance_half_um", "needs a bearing that is not rigid");
   const bool hertzian =
       s.sun_bearing.law == BearingLaw::palmgren_xy || s.sun_bearing.law == BearingLaw::palmgren_radial;
   if (hertzian && !s.sun_bearing.balls) out.add("/lumped/sun/bearing/balls", "is missing; the Palmgren laws need it");

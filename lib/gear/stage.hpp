@@ -104,6 +104,15 @@ struct CentralMember {
   ShaftErrors errors{};
 };
 
+/// Decides the exponent of the life of a rolling bearing [G-life].
+enum class RollingElements { balls, rollers };
+
+/// What the life of a rolling bearing needs. Without a load rating there is no life.
+struct BearingRating {
+  std::optional<double> dynamic_load_rating_kN{};     ///< C of ISO 281 [kN]
+  std::optional<RollingElements> rolling_elements{};  ///< default: balls of the sun's bearing, rollers of planets'
+};
+
 /// How the sun's bearing answers the sun's displacement (docs/theory/model.md, section 2).
 enum class BearingLaw {
   linear_xy,        ///< k f(x, b), k f(y, b): the paper's, constant k; a square clearance
@@ -124,6 +133,7 @@ struct SunBearing {
   std::optional<int> balls;                ///< Z
   std::optional<double> ball_diameter_mm;  ///< D_w [mm]
   double contact_angle_deg = 0;            ///< alpha [deg]
+  BearingRating rating{};
 };
 
 struct Planet {
@@ -139,6 +149,8 @@ struct Planet {
   std::optional<double> torsional_support_N_per_m{};  ///< of gear 2 of a pair, on its base radius [N/m]
   /// As those of ShaftErrors, one number or one per planet; the direction is relative to the planet's own radius.
   std::optional<std::vector<double>> eccentricity_um{}, eccentricity_phase_deg{};
+  std::optional<double> bearing_clearance_half_um{};  ///< half the radial clearance of the bearing, b_p [um]
+  BearingRating rating{};                             ///< of the bearing
 };
 
 /// Friction over phase = s / 2 pi on the common s of planet 1, in [0, 1), rising; smooth between breakpoints.

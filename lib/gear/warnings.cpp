@@ -304,11 +304,14 @@ void check_gaps(Warnings& out, const Stage& s) {
   };
   backlash("/lumped/sun_planet_mesh", "sun-planet", s.sun_planet_mesh);
   if (!s.is_pair()) backlash("/lumped/ring_planet_mesh", "ring-planet", s.ring_planet_mesh);
-  const double modules = 1e-3 * s.sun_bearing.clearance_half_um / module;
-  if (modules > half_clearance_most)
-    out.add(Rank::doubtful, modules / half_clearance_most, "/lumped/sun/bearing_clearance_half_um", "clearance", "is ",
-            s.sun_bearing.clearance_half_um, " um, ", modules,
-            " modules: the sun may move out of its meshes before its bearing holds it");
+  const auto clearance = [&](const char* pointer, const char* member, double half_um) {
+    const double modules = 1e-3 * half_um / module;
+    if (modules > half_clearance_most)
+      out.add(Rank::doubtful, modules / half_clearance_most, pointer, "clearance", "is ", half_um, " um, ", modules,
+              " modules: the ", member, " may move out of its meshes before its bearing holds it");
+  };
+  clearance("/lumped/sun/bearing_clearance_half_um", "sun", s.sun_bearing.clearance_half_um);
+  clearance("/lumped/planet/bearing_clearance_half_um", "planet", s.planet.bearing_clearance_half_um.value_or(0.0));
   check_error(out, "/lumped/sun_planet_mesh", s.sun_planet_mesh, module, *s.planet.teeth);
   check_sag(out, "/lumped/sun/support_N_per_m", s.sun.mass_kg, s.sun.support_N_per_m, module);
   if (s.is_pair()) return;

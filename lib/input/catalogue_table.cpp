@@ -95,12 +95,18 @@ const Table<gear::SupportBearing>& bearing_table() {
   static const auto table = [] {
     using gear::SupportBearing;
     Table<SupportBearing> t("bearing", "Bearing of a support.");
-    t.text("type", &SupportBearing::type, "Designation of a deep groove ball bearing; gives the support's stiffness.");
+    t.text("type", &SupportBearing::type,
+           "Designation of a rolling bearing, such as 6213, NU213, NA4913 or NCF3013V; gives the support's stiffness.");
     t.integer("balls", &SupportBearing::balls, between(3, 1000), "Number of balls, in place of a type [-].");
     t.number("ball_diameter_mm", &SupportBearing::ball_diameter_mm, length_bounds, "Diameter of a ball [mm].");
     t.number("contact_angle_deg", &SupportBearing::contact_angle_deg, from_below(0, 90), "Contact angle [deg].");
-    t.rule(KeyRule::Kind::exactly_one, {"type", "balls"});
+    t.integer("rollers", &SupportBearing::rollers, between(3, 1000),
+              "Number of cylindrical rollers or needles, in place of a type [-].");
+    t.number("roller_length_mm", &SupportBearing::roller_length_mm, length_bounds,
+             "Effective length of a roller [mm].");
+    t.rule(KeyRule::Kind::exactly_one, {"type", "balls", "rollers"});
     t.rule(KeyRule::Kind::together, {"balls", "ball_diameter_mm"});
+    t.rule(KeyRule::Kind::together, {"rollers", "roller_length_mm"});
     t.number("approach_um", &SupportBearing::approach_um, between(1e-6, 1e4),
              "Elastic approach at which the tangent stiffness is taken [um].");
     return t;
@@ -230,6 +236,7 @@ const Table<Catalogue>& catalogue_table() {
     t.object("sun", &Catalogue::sun, external_table("sun")).required();
     t.object("sun_bearing", present(&Catalogue::sun_bearing), bearing_table());
     t.object("planet", &Catalogue::planet, external_table("planet")).required();
+    t.object("planet_bearing", present(&Catalogue::planet_bearing), bearing_table());
     t.object("ring", &Catalogue::ring, ring_table()).required();
     t.object("carrier", &Catalogue::carrier, carrier_table());
     t.object("mesh_stiffness", &Catalogue::stiffness, stiffness_table());

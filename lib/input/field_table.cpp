@@ -6,6 +6,8 @@
 #include <charconv>
 #include <utility>
 
+#include "input/helix.hpp"
+
 namespace epicyclic::input {
 
 namespace {
@@ -66,6 +68,7 @@ std::string cut(const std::string& text) {
 std::pair<std::string, std::string> unknown_key(const std::string& key, const std::string& pointer,
                                                 const std::vector<std::string>& known, const ReadContext& context) {
   std::string message = "unknown key '" + cut(key) + "'";
+  if (key.starts_with("helix_angle")) return {message + ": " + no_helix, ""};
   if (context.findings.size() >= findings_max) return {message, ""};
   std::vector<std::string> same_quantity;
   const std::string quantity = stem(key, true);

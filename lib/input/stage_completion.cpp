@@ -22,9 +22,13 @@ using nlohmann::json;
 /// Interpolation in computed rows.
 constexpr const char* smooth_word = "smooth";
 
-/// Is it a number, a row of numbers, or how to interpolate in rows that are computed? All that is computed is.
+/// Rolling elements of a bearing.
+constexpr const char* balls_word = "balls";
+constexpr const char* rollers_word = "rollers";
+
+/// Is it a number, a row of numbers, or one of the words that are computed? All that is computed is.
 bool is_of_computed_kind(const json& value) {
-  return value.is_number() || value == smooth_word ||
+  return value.is_number() || value == smooth_word || value == balls_word || value == rollers_word ||
          (value.is_array() &&
           std::all_of(value.begin(), value.end(), [](const json& number) { return number.is_number(); }));
 }
@@ -94,12 +98,14 @@ void fill_gear(Filler& member, const gear::Tooth& tooth) {
 
 /// Tangent stiffness of a bearing at its approach.
 double support_stiffness(const gear::SupportBearing& bearing) {
-  return gear::palmgren_stiffness(gear::bearing_data(bearing)->coefficient(), bearing.approach_um * 1e-6);
+  return gear::bearing_data(bearing)->stiffness(bearing.approach_um * 1e-6);
 }
 
 std::string bearing_tag(const gear::SupportBearing& bearing) {
-  return "[G-11] tangent stiffness of bearing " + gear::bearing_data(bearing)->name + " at an approach of " +
-         number_text(bearing.approach_um) + " um";
+  const gear::BearingData data = *gear::bearing_data(bearing);
+  return std::string(data.kind == gear::RollingElements::balls ? "[G-11]" : "[G-roller]") +
+         " tangent stiffness of bearing " + data.name + " at an approach of " + number_text(bearing.approach_um) +
+         " um";
 }
 
 /// An error in two digits, rounded up, so that another machine's last digits do not show.
@@ -172,16 +178,29 @@ json computed_values(const gear::Stage& read) {
   if (c.sun_bearing) {
     const gear::BearingData data = *gear::bearing_data(*c.sun_bearing);
     sun.fill("support_N_per_m", support_stiffness(*c.sun_bearing), bearing_tag(*c.sun_bearing));
-    Filler bearing = sun.below("bearing");
-    const std::string origin = "bearing " + data.name + ", " + data.origin;
-    bearing.fill("balls", data.balls, origin);
-    bearing.fill("ball_diameter_mm", data.ball_diameter_mm, origin);
-    bearing.fill("contact_angle_deg", data.contact_angle_deg, "as in catalogue");
+    if (data.kind == gear::RollingElements::balls) {
+      Filler bearing = sun.below("bearing");
+      const std::string origin = "bearing " + data.name + ", " + data.origin;
+      bearing.fill("balls", data.elements, origin);
+      bearing.fill("ball_diameter_mm", data.ball_diameter_mm, origin);
+      bearing.fill("contact_angle_deg", data.contact_angle_deg, "as in catalogue");
+    }
   }
   Filler planet = lumped.below("planet");
   fill_gear(planet, set.planet);
   fill_body(planet, bodies.planet, set.planet.base_radius_mm,
             "[G-M] cylinder between bore and mean of tip and root radius");
+  if (c.planet_bearing) {
+    const gear::BearingData data = *gear::bearing_data(*c.planet_bearing);
+    planet.fill("bearing_N_per_m", data.stiffness(c.planet_bearing->approach_um * 1e-6),
+                bearing_tag(*c.planet_bearing) + "; " + data.origin);
+    if (data.dynamic_rating_kN) {
+      Filler bearing = planet.below("bearing");
+      const std::string origin = "bearing " + data.name + ", " + data.ratings;
+      bearing.fill("dynamic_load_rating_kN", *data.dynamic_rating_kN, origin);
+      bearing.fill("rolling_elements", data.kind == gear::RollingElements::balls ? balls_word : rollers_word, origin);
+    }
+  }
   Filler ring = lumped.below("ring");
   fill_gear(ring, set.ring);
   fill_body(ring, bodies.ring, set.ring.base_radius_mm, "[G-M] ring between mean of tip and root radius and rim");
@@ -328,6 +347,7 @@ void note_unused(const json& stage, const json& computed, const std::string& roo
     const char *member, *key, *from;
   };
   for (const auto& [member, key, from] : {Place{"sun", "support_N_per_m", "/catalogue/sun_bearing"},
+                                          Place{"planet", "bearing_N_per_m", "/catalogue/planet_bearing"},
                                           Place{"carrier", "support_N_per_m", "/catalogue/carrier/bearing"},
                                           Place{"carrier", "torsional_support_N_per_m", "/catalogue/carrier/shaft"}}) {
     const auto place = json::json_pointer("/lumped") / member;

@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <charconv>
 #include <cmath>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <thread>
 #include <tuple>
 #include <utility>
 
+#include "core/csv.hpp"
 #include "input/aliases.hpp"
 #include "input/given_speeds.hpp"
 #include "input/input_sources.hpp"
@@ -83,6 +86,7 @@ class LoadedInput::Loader {
     spread_all_origins();
     for (const auto& set : sources_->sets)
       if (!is_early(set) && !(stage_missing_ && pointer_within(set.pointer, stage_root))) make(set);
+    read_torque_file();
     for (auto& set : sources_->sets)
       if (sources_->bare && pointer_within(set.pointer, stage_root)) set.pointer.erase(0, stage_root.size());
     read_values();
@@ -240,6 +244,42 @@ class LoadedInput::Loader {
     }
     input_.stage_file = RawFile{stage_path.filename().string(), stage.bytes};
     sources_->stage = std::move(stage);
+  }
+
+  /// Puts the rows of the CSV file that a ramp names in its place.
+  void read_torque_file() {
+    const std::string place = "/study/torque_file";
+    const auto study = whole_.find("study");
+    if (study == whole_.end() || !study->is_object() || study_of(whole_) != "ramp") return;
+    const auto named = study->find("torque_file");
+    if (named == study->end() || !named->is_string()) return;
+    if (study->contains("torque_time_s") || study->contains("torque_Nm"))
+      return refuse(place, "gives torque_time_s and torque_Nm; take these out");
+    const JsonSource file = sources_->files->read(sources_->path.parent_path() / named->get<std::string>());
+    if (file.bytes.empty())
+      return refuse(place, file.name + ": " + (file.problems.empty() ? "is empty" : file.problems.front().message));
+    std::string text = file.bytes;
+    std::erase(text, '\r');
+    const std::optional<CsvTable> table = parse_csv(text);
+    if (!table) return refuse(place, file.name + ": is no table of comma-separated values");
+    json rows = {{"torque_time_s", json::array()}, {"torque_Nm", json::array()}};
+    for (const auto& [key, column] : {std::pair("torque_time_s", "time_s"), std::pair("torque_Nm", "torque_Nm")}) {
+      const std::size_t at = table->index_of(column);
+      if (at == table->columns.size())
+        return refuse(place, file.name + ": has no column " + column + "; its first line names the columns");
+      for (std::size_t row = 0; row < table->rows.size(); ++row) {
+        const std::string& cell = table->rows[row][at];
+        double value = 0.0;
+        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+        if (error != std::errc() || end != cell.data() + cell.size())
+          return refuse(place, file.name + ":" + std::to_string(row + 2) + ": " + column + " is no number");
+        rows[key].push_back(value);
+      }
+      (*study)["origin"][key] = "file: " + named->get<std::string>();
+    }
+    study->erase("torque_file");
+    if (const auto origin = study->find("origin"); origin != study->end()) origin->erase("torque_file");
+    study->update(rows);
   }
 
   void patch_stage() {

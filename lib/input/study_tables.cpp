@@ -161,6 +161,32 @@ void add_central(Table<T>& table, F member, const std::string& radius) {
                "Direction of the eccentricity at the mesh phase 0, as planet angles are measured [deg].");
 }
 
+/// @param rating  reaches the rating of a T
+/// @param usual   the rolling elements where none are named
+template <class T, class F>
+void add_rating(Table<T>& t, F rating, const std::string& usual) {
+  t.number("dynamic_load_rating_kN",
+           chain(
+               rating, [](auto& r) -> auto& { return r.dynamic_load_rating_kN; }),
+           between(1e-3, 1e6), "Basic dynamic radial load rating C [kN]; with it results have the bearing's life L10.");
+  t.choice("rolling_elements",
+           chain(
+               rating, [](auto& r) -> auto& { return r.rolling_elements; }),
+           std::vector<std::pair<std::string, gear::RollingElements>>{{"balls", gear::RollingElements::balls},
+                                                                      {"rollers", gear::RollingElements::rollers}},
+           "Decides the exponent of the life, 3 or 10/3; " + usual + " if not given.");
+  t.rule(KeyRule::Kind::needs, {"rolling_elements", "dynamic_load_rating_kN"});
+}
+
+const Table<gear::BearingRating>& planet_bearing_table() {
+  static const auto table = [] {
+    Table<gear::BearingRating> t("bearing", "Load rating of the planet's bearing.");
+    add_rating(t, itself, "rollers");
+    return t;
+  }();
+  return table;
+}
+
 const Table<gear::SunBearing>& bearing_table() {
   static const auto table = [] {
     Table<gear::SunBearing> t("bearing", "Law of the sun's bearing and its rolling elements.");
@@ -176,6 +202,8 @@ const Table<gear::SunBearing>& bearing_table() {
     t.number("ball_diameter_mm", &gear::SunBearing::ball_diameter_mm, length,
              "Diameter of a ball [mm]; for the Palmgren laws.");
     t.number("contact_angle_deg", &gear::SunBearing::contact_angle_deg, from_below(0, 90), "Contact angle [deg].");
+    add_rating(
+        t, [](auto& bearing) -> auto& { return bearing.rating; }, "balls");
     return t;
   }();
   return table;
@@ -226,6 +254,9 @@ const Table<Planet>& planet_table() {
                       "Stiffness of the planet bearing, the same in all directions [N/m]: one number, one per planet, "
                       "or \"rigid\" (modes, and pairs whose gears only rotate).")
         .required();
+    t.number("bearing_clearance_half_um", &Planet::bearing_clearance_half_um, gap,
+             "Half the radial clearance of the planet bearing [um]; no clearance if it is not given.");
+    t.object("bearing", &Planet::rating, planet_bearing_table());
     t.number("torsional_support_N_per_m", &Planet::torsional_support_N_per_m, support,
              "Of gear 2 of a pair: stiffness of the torsional support, referred to the base radius [N/m].");
     t.number_or_numbers("pin_error_tangential_um", &Planet::pin_error_tangential_um, signed_error, gear::planets_max,

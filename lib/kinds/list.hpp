@@ -10,6 +10,7 @@
   KIND(map)                   \
   KIND(basins)                \
   KIND(run)                   \
+  KIND(ramp)                  \
   KIND(crosscheck)            \
   KIND(tolerance)             \
   KIND(continue)

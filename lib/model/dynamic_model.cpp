@@ -27,12 +27,14 @@ std::vector<ContactSurface> contact_surfaces(const DynamicModel& model) {
   for (int i = 1; i <= model.planets; ++i)
     for (const char* kind : {"sp_", "rp_"})
       if (kind[0] == 's' || model.has_ring()) both(kind + std::to_string(i), true);
-  if (all.size() + 1 == model.surfaces.count) {
+  const std::size_t of_planets = model.planet_bearing_gap ? static_cast<std::size_t>(model.planets) : 0;
+  if (all.size() + 1 + of_planets == model.surfaces.count) {
     all.push_back({"sun_bearing", false, true});
   } else {
     both("sun_bearing_x", false);
     both("sun_bearing_y", false);
   }
+  for (std::size_t i = 1; i <= of_planets; ++i) all.push_back({"planet_bearing_" + std::to_string(i), false, true});
   return all;
 }
 
@@ -213,6 +215,7 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
   m.sampling_interval = p->sampling_interval;
   m.sun_planet_half_gap = p->sun_planet.half_gap;
   m.ring_planet_half_gap = p->ring_planet.half_gap;
+  m.planet_bearing_gap = p->planet_gap;
   m.omega = mesh_frequency_ratio;
   m.jumps_at_surfaces = p->gap_damping == GapDamping::contact_slope && !p->smooth &&
                         std::max(p->sun_planet.half_gap, p->ring_planet.half_gap) > 0.0;
@@ -232,6 +235,7 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
   m.outputs_at = make_stage_outputs(layout, p);
   m.scales = scales;
   m.speeds = gear::speeds(stage, mesh_frequency_ratio * scales.omega_sn);
+  m.bearings = gear::bearing_loads(stage, mesh_frequency_ratio * scales.omega_sn);
   m.origin = constants;
   if (has_computed_tables(stage)) {
     m.with_halved_tables = [layout, stage = std::make_shared<const gear::Stage>(stage), scales, mesh_frequency_ratio,
@@ -251,13 +255,69 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
     m.remove_synchronous = [layout, p](std::span<double> deviation) { remove_synchronous(layout, *p, deviation); };
   }
   m.default_start = linear_equilibrium(layout, *p);
+  // A planet whose bearing is open would first fall through its clearance.
+  if (p->planet_gap)
+    if (auto pressed = quasi_static_states(layout, *p, m.default_start, std::array{0.0}); !pressed.empty())
+      m.default_start = std::move(pressed.front());
   m.quasi_static_states = [layout, p, start = m.default_start](std::span<const double> phases) {
     return quasi_static_states(layout, *p, start, phases);
   };
   return m;
 }
 
+/// [M-ramp]
+template <std::size_t N>
+DynamicModel ramped(Layout layout, const gear::Stage& stage, const Scales& scales, const ModelOptions& options,
+                    const std::shared_ptr<const SpeedRamp>& ramp, double reference,
+                    const std::function<double(double tau)>& torque) {
+  DynamicModel m = assemble<N>(layout, stage, scales, reference, options);
+  const auto base = constants_of<N>(m, layout);
+  const auto p = std::make_shared<Parameters<double, N>>(*base);
+  const auto set = [base, p, ramp, torque, at_power = stage.load.power_kW.has_value()](double s) {
+    const double speed = ramp->omega_at(s) / base->omega;
+    double load = at_power ? 1.0 / speed : 1.0;
+    if (torque) load *= torque(ramp->tau_at(s));
+    p->omega = speed * base->omega;
+    p->carrier_speed = speed * base->carrier_speed;
+    p->centrifugal = speed * speed * base->centrifugal;
+    p->drive = load * base->drive;
+    p->ring_drive = load * base->ring_drive;
+    p->carrier_load = load * base->carrier_load;
+    p->output_load = load * base->output_load;
+  };
+  m.right_hand_side = [layout, p, set, kernel = stage_kernel<N>(layout)](std::size_t segment, double s, const double* y,
+                                                                         double* dyds) {
+    set(s);
+    kernel(layout, *p, segment, s, y, dyds);
+  };
+  m.deflections = [layout, p, set](double s, const double* y, MeshDeflections& out) {
+    set(s);
+    deflections_at(layout, *p, s, y, out);
+  };
+  m.forces = [layout, p, set](double s, const double* y, StageForces& out) {
+    set(s);
+    forces_at(layout, *p, s, y, out);
+  };
+  m.surfaces.evaluate = [layout, p, set](double s, const double* y, double* distances, double* rates) {
+    set(s);
+    contact_distances(layout, *p, without_tables(*p, s), y, distances, rates);
+  };
+  m.tangents = {};
+  m.outputs_at = {};
+  m.with_halved_tables = {};
+  m.origin = nullptr;
+  return m;
+}
+
 }  // namespace
+
+DynamicModel make_ramped_model(const gear::Stage& stage, const Scales& scales, const ModelOptions& options,
+                               std::shared_ptr<const SpeedRamp> ramp, double reference,
+                               std::function<double(double tau)> torque) {
+  return with_planets(stage.planet_count, [&]<std::size_t N>() {
+    return ramped<N>(layout_of(stage, CoordinateChoice::relative), stage, scales, options, ramp, reference, torque);
+  });
+}
 
 Layout layout_of(const gear::Stage& stage, CoordinateChoice choice) {
   if (stage.is_pair()) {

@@ -5,14 +5,17 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/vector_field.hpp"
+#include "gear/bearing_life.hpp"
 #include "gear/kinematics.hpp"
 #include "gear/stage.hpp"
 #include "model/layout.hpp"
@@ -49,8 +52,9 @@ struct Shaft {
 
 /// The equations of motion, s the mesh phase, and what else can be said of a state. Switching surfaces are the
 /// contacts, how far each is from being made or lost: contact_distances() of model/right_hand_side.hpp, 4 N + 4 of
-/// them, or 4 N + 1 with a radial bearing law; of a pair 6 or 3. The field jumps there with damping that ends where
-/// contact does. A field is made of its folded constants (model/folded_constants.hpp).
+/// them, or 4 N + 1 with a radial bearing law; of a pair 6 or 3; N more with a clearance of the planets' bearings. The
+/// field jumps there with damping that ends where contact does. A field is made of its folded constants
+/// (model/folded_constants.hpp).
 struct DynamicModel : VectorField {
   DynamicModel() { period = 2.0 * std::numbers::pi; }
 
@@ -61,9 +65,11 @@ struct DynamicModel : VectorField {
   std::vector<std::string> state_names;  ///< x_s, ..., then x_s_rate, ...
   double sun_planet_half_gap = 0;        ///< b_sp [b_c]
   double ring_planet_half_gap = 0;       ///< b_rp [b_c]
+  bool planet_bearing_gap = false;       ///< is a clearance of the planets' bearings given?
   double omega = 0;                      ///< Omega
   Scales scales;                         ///< that the stage was made dimensionless with
   gear::Speeds speeds{};                 ///< of its members
+  gear::BearingLoads bearings{};         ///< what the lives of its bearings need
 
   /// Allocation-free when `out` has been used before. Rates included.
   std::function<void(double s, const double* y, MeshDeflections& out)> deflections;
@@ -110,8 +116,9 @@ struct DynamicModel : VectorField {
 
 /// Which contact a switching surface of a DynamicModel is of.
 struct ContactSurface {
-  std::string part;   ///< "sp_1", "rp_2", "sun_bearing_x", "sun_bearing_y"; "sun_bearing" of a radial law
-  bool mesh = true;   ///< of a mesh, else of the sun's bearing
+  std::string part;   ///< "sp_1", "rp_2", "sun_bearing_x", "sun_bearing_y"; "sun_bearing" of a radial law;
+                      ///< "planet_bearing_1" with a clearance there
+  bool mesh = true;   ///< of a mesh, else of a bearing
   bool upper = true;  ///< the distance is x - b, else x + b
 };
 
@@ -133,6 +140,29 @@ enum class CoordinateChoice { relative, full };
 [[nodiscard]] DynamicModel make_dynamic_model(const gear::Stage& stage, const Scales& scales,
                                               double mesh_frequency_ratio, const ModelOptions& options,
                                               CoordinateChoice choice = CoordinateChoice::relative);
+
+/// A speed that changes at a constant rate, from the beginning of a mesh period on [M-ramp]:
+///
+///   Omega(tau) = Omega_0 + a (tau - tau_0) ,  s = int Omega d tau ,  so that  Omega(s) = sqrt(Omega_0^2 + 2 a s)
+struct SpeedRamp {
+  double omega = 1;  ///< Omega_0, at s = 0
+  double rate = 0;   ///< a = d Omega / d tau; 0: the speed is constant
+  double tau = 0;    ///< tau_0
+
+  [[nodiscard]] double omega_at(double s) const { return std::sqrt(omega * omega + 2.0 * rate * s); }
+  /// Without cancellation for a small rate.
+  [[nodiscard]] double tau_at(double s) const { return tau + 2.0 * s / (omega_at(s) + omega); }
+};
+
+/// The model of a stage whose speed changes. Its functions take the speed at s from the ramp, which the caller sets for
+/// each mesh period before it is integrated. All that depends on the speed follows: e', the speed of the carrier, the
+/// centrifugal force, torques at constant power. Friction of lubricated teeth is that of the speed of reference. The
+/// inertia torques of the acceleration are left out. One trajectory at a time; without tangents and outputs_at.
+/// @param reference  Omega at which friction tables are made
+/// @param torque     torque at a time tau over that of the stage; null: 1
+[[nodiscard]] DynamicModel make_ramped_model(const gear::Stage& stage, const Scales& scales,
+                                             const ModelOptions& options, std::shared_ptr<const SpeedRamp> ramp,
+                                             double reference, std::function<double(double tau)> torque = {});
 
 /// Data of a model that a parameter may change.
 struct OperatingPoint {

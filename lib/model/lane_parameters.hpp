@@ -160,7 +160,7 @@ void LaneParameters<N, W>::check(const Parameters<double, N>& p) const {
     return alike;
   };
   if (!mesh_fits(p.sun_planet, own.sun_planet) || !mesh_fits(p.ring_planet, own.ring_planet) ||
-      p.sun_law != own.sun_law || p.gyroscopic_relative != own.gyroscopic_relative ||
+      p.sun_law != own.sun_law || p.planet_gap != own.planet_gap || p.gyroscopic_relative != own.gyroscopic_relative ||
       p.gyroscopic_carrier_row != own.gyroscopic_carrier_row || p.smooth != own.smooth ||
       p.gap_damping != own.gap_damping || p.boundary != own.boundary || p.mesh_periods != own.mesh_periods)
     throw InputError("operating points of different structure cannot run side by side");

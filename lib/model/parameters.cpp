@@ -414,6 +414,8 @@ void fill_supports(Parameters<double, N>& p, const gear::Stage& stage, const Sca
     p.bearing_p[i] = stiffness(bearing);
     p.bearing_damping_p[i] = scales.damping(stage.planet.damping.of(bearing, stage.planet.mass_kg[i]));
   }
+  p.planet_half_gap = scales.displacement(stage.planet.bearing_clearance_half_um.value_or(0.0) * 1e-6);
+  p.planet_gap = stage.planet.bearing_clearance_half_um.has_value();
   p.sun_half_gap = scales.displacement(stage.sun_bearing.clearance_half_um * 1e-6);
   p.sun_law = stage.sun_bearing.law;
   const bool hertzian = p.sun_law == gear::BearingLaw::palmgren_xy || p.sun_law == gear::BearingLaw::palmgren_radial;

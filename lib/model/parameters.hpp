@@ -80,6 +80,8 @@ struct Parameters {
   T torsion_r, torsion_c;             ///< k_ru, k_cu
   T torsion_damping_r, torsion_damping_c;
   Row<T, N> bearing_p{}, bearing_damping_p{};  ///< k_p, c_p of each planet
+  bool planet_gap = false;                     ///< is a clearance of the planets' bearings given?
+  T planet_half_gap;                           ///< b_p
   T sun_half_gap;                  ///< b_s
   gear::BearingLaw sun_law = gear::BearingLaw::linear_xy;
   T sun_hertz;                        ///< K of the Palmgren laws, force K d^(3/2)
@@ -163,7 +165,7 @@ void for_each_constant(P& p, const F& f) {
   each(p.support_s, p.support_r, p.support_c);
   each(p.damping_s, p.damping_r, p.damping_c);
   each(p.torsion_r, p.torsion_c, p.torsion_damping_r, p.torsion_damping_c);
-  each(p.sun_half_gap, p.sun_hertz);
+  each(p.planet_half_gap, p.sun_half_gap, p.sun_hertz);
   each(p.drive, p.ring_drive, p.carrier_load);
   each(p.torsion_s, p.torsion_p, p.torsion_damping_s, p.torsion_damping_p, p.output_load);
   for (auto* list : {&p.input_cos, &p.input_sin, &p.output_cos, &p.output_sin})
@@ -202,6 +204,7 @@ template <class T, std::size_t N>
   r.sun_law = p.sun_law;
   r.boundary = p.boundary;
   r.mesh_periods = p.mesh_periods;
+  r.planet_gap = p.planet_gap;
   r.gyroscopic_relative = p.gyroscopic_relative;
   r.gyroscopic_carrier_row = p.gyroscopic_carrier_row;
   r.smooth = p.smooth;

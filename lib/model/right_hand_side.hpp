@@ -135,6 +135,13 @@ template <class T, class P, std::size_t N>
   return {T(0.0), T(0.0)};
 }
 
+/// Part of its displacement by which the bearing of each planet is pressed, f(r, b_p) / r with the radius r of
+/// delta_picx and delta_picy [M-gap-p].
+template <class T, class P, std::size_t N, std::size_t G>
+[[nodiscard]] Row<T, G> planet_bearing_factor(const Parameters<P, N>& p, const Deflections<T, G>& d) {
+  return radial_closure_factor(safe_radius(d.carrier_x, d.carrier_y), p.planet_half_gap, p.smoothing, p.smooth);
+}
+
 /// Forces of the stage at one instant, before they act on masses, with a group of G planets. Each part is made where it
 /// stays: copies of it would cost as much as its arithmetic.
 template <class T, std::size_t G, class P = T>
@@ -227,11 +234,21 @@ template <class T, class P, std::size_t N, std::size_t G>
   const auto& bearing_damping = planets(p.bearing_damping_p);
   const auto& inverse_mass = planets(p.inverse_mass_p);
   const auto& inverse_inertia = planets(p.inverse_inertia_p);
-  const R spring_x = bearing * g.d.carrier_x + bearing_damping * g.d_rate.carrier_x;
-  const R spring_y = bearing * g.d.carrier_y + bearing_damping * g.d_rate.carrier_y;
+  R spring_x = bearing * g.d.carrier_x;
+  R spring_y = bearing * g.d.carrier_y;
+  R spring_u = bearing * g.d.carrier_u;
+  if (p.planet_gap) {
+    const R closed = planet_bearing_factor(p, g.d);
+    spring_x = closed * spring_x;
+    spring_y = closed * spring_y;
+    spring_u = closed * spring_u;
+  }
+  spring_x += bearing_damping * g.d_rate.carrier_x;
+  spring_y += bearing_damping * g.d_rate.carrier_y;
+  spring_u += bearing_damping * g.d_rate.carrier_u;
   r.carrier_x = sum(spring_x);
   r.carrier_y = sum(spring_y);
-  r.carrier_u = sum(bearing * g.d.carrier_u + bearing_damping * g.d_rate.carrier_u);
+  r.carrier_u = sum(spring_u);
 
   if constexpr (N == 1) {
     a.x_p = (sp.force * sin_sp + sp.friction * cos_sp - spring_x) * inverse_mass;
@@ -422,11 +439,12 @@ void right_hand_side(Layout layout, const Parameters<P, N>& p, const PhaseCoeffi
 /// Numbers of contact_distances().
 template <class P, std::size_t N>
 [[nodiscard]] std::size_t contacts_of(const Parameters<P, N>& p) {
-  return (N == 1 ? 2 : 4 * N) + (gear::is_radial(p.sun_law) ? 1 : 4);
+  return (N == 1 ? 2 : 4 * N) + (gear::is_radial(p.sun_law) ? 1 : 4) + (p.planet_gap ? N : 0);
 }
 
 /// Distance of each contact from the kink of its clearance function: delta - b and delta + b of each planet's sun mesh
-/// and ring mesh (a pair has no ring), then of the sun's bearing x - b, x + b, y - b, y + b, or r - b of a radial law.
+/// and ring mesh (a pair has no ring), then of the sun's bearing x - b, x + b, y - b, y + b, or r - b of a radial law,
+/// and r - b of each planet's bearing if a clearance of it is given.
 /// Infinite if b = 0: without a gap no contact opens or closes, and the force has no kink.
 ///
 /// @param y          as of right_hand_side()
@@ -467,11 +485,22 @@ void contact_distances(Layout layout, const Parameters<P, N>& p, const PhaseCoef
   const T& y_rate = v.y_s;
   if (gear::is_radial(p.sun_law)) {
     const T r = safe_radius(x_s, y_s);
-    *distances = r - p.sun_half_gap + away(p.sun_half_gap);
-    *rates = (x_s * x_rate + y_s * y_rate) / r * per_phase;
+    *distances++ = r - p.sun_half_gap + away(p.sun_half_gap);
+    *rates++ = (x_s * x_rate + y_s * y_rate) / r * per_phase;
   } else {
     flanks(x_s, x_rate, p.sun_half_gap);
     flanks(y_s, y_rate, p.sun_half_gap);
+  }
+  if (!p.planet_gap) return;
+  for (std::size_t i = 0; i < N; ++i) {
+    const Planets<N, 1> own{i};
+    const Deflections<T, 1> d = deflections(p, own, unpack(layout, own, y));
+    const Deflections<T, 1> d_rate = deflections(p, own, unpack(layout, own, velocities));
+    const T along_x = d.carrier_x[0];
+    const T along_y = d.carrier_y[0];
+    const T r = safe_radius(along_x, along_y);
+    *distances++ = r - p.planet_half_gap + away(p.planet_half_gap);
+    *rates++ = (along_x * d_rate.carrier_x[0] + along_y * d_rate.carrier_y[0]) / r * per_phase;
   }
 }
 
@@ -493,9 +522,15 @@ void evaluate_outputs(Layout layout, const Parameters<P, N>& p, const PhaseCoeff
     };
     mesh(at.sun_planet(i), g.sun_planet);
     mesh(at.ring_planet(i), g.ring_planet);
-    rows[at.planet_bearing(i)] =
-        magnitude(p.bearing_p[i] * g.d.carrier_x[0] + p.bearing_damping_p[i] * g.d_rate.carrier_x[0],
-                  p.bearing_p[i] * g.d.carrier_y[0] + p.bearing_damping_p[i] * g.d_rate.carrier_y[0]);
+    T spring_x = p.bearing_p[i] * g.d.carrier_x[0];
+    T spring_y = p.bearing_p[i] * g.d.carrier_y[0];
+    if (p.planet_gap) {
+      const T closed = planet_bearing_factor(p, g.d)[0];
+      spring_x = closed * spring_x;
+      spring_y = closed * spring_y;
+    }
+    rows[at.planet_bearing(i)] = magnitude(spring_x + p.bearing_damping_p[i] * g.d_rate.carrier_x[0],
+                                           spring_y + p.bearing_damping_p[i] * g.d_rate.carrier_y[0]);
   }
   const Coordinates<T, 1> q = unpack(layout, Planets<N, 1>{}, y);
   const Coordinates<T, 1> v = unpack(layout, Planets<N, 1>{}, y + degrees_of_freedom(layout, N));

@@ -110,6 +110,7 @@ std::vector<double> linear_equilibrium(Layout layout, Parameters<double, N> p) {
   p.smooth = false;
   p.sun_law = gear::BearingLaw::linear_xy;
   p.sun_half_gap = 0.0;
+  p.planet_gap = false;
   p.carrier_speed = 0.0;
   std::vector<double> state(2 * n);
   std::vector<double> slope(2 * n);

@@ -213,7 +213,7 @@ GearFigure friction_ratio_figure(const fs::path& folder, const gear::Stage& stag
 struct NamedBearing {
   std::string member;
   gear::SupportBearing support;
-  double coefficient;  // [N/m^1.5]
+  gear::BearingData data;
 };
 
 std::vector<NamedBearing> bearings_of(const gear::Catalogue& catalogue) {
@@ -221,18 +221,18 @@ std::vector<NamedBearing> bearings_of(const gear::Catalogue& catalogue) {
   const auto add = [&](std::string_view member, const std::optional<gear::SupportBearing>& support) {
     if (!support) return;
     if (const auto data = gear::bearing_data(*support))
-      bearings.push_back(
-          {fmt::format("{}, {}", member, figures::verbatim_text(data->name)), *support, data->coefficient()});
+      bearings.push_back({fmt::format("{}, {}", member, figures::verbatim_text(data->name)), *support, *data});
   };
   add("sun", catalogue.sun_bearing);
+  add("planet", catalogue.planet_bearing);
   add("carrier", catalogue.carrier.bearing);
   return bearings;
 }
 
-/// @param law  value at an approach, palmgren_stiffness or palmgren_force
+/// @param law  value at an approach, stiffness or force
 GearFigure bearing_figure(const fs::path& folder, std::string_view stem, const gear::Stage& stage,
-                          const std::vector<NamedBearing>& bearings, double (*law)(double, double), double unit,
-                          std::string_view title, std::string_view label) {
+                          const std::vector<NamedBearing>& bearings, double (gear::BearingData::*law)(double) const,
+                          double unit, std::string_view title, std::string_view label) {
   constexpr double micrometre = 1e-6;
   constexpr int samples = 200;
   double reach_um = 0.0;
@@ -241,7 +241,7 @@ GearFigure bearing_figure(const fs::path& folder, std::string_view stem, const g
   double highest = 0.0;
   Curve chosen;
   for (std::size_t k = 0; k < bearings.size(); ++k) {
-    const auto value = [&](double um) { return law(bearings[k].coefficient, um * micrometre) / unit; };
+    const auto value = [&](double um) { return (bearings[k].data.*law)(um * micrometre) / unit; };
     Curve curve;
     // Squares: the stiffness starts with an infinite slope.
     for (int i = 0; i <= samples; ++i) {
@@ -830,9 +830,9 @@ std::vector<GearFigure> draw_gear_set_figures(const fs::path& folder, const gear
   }
   const std::vector<NamedBearing> bearings = bearings_of(set.catalogue);
   if (!bearings.empty()) {
-    figures.push_back(bearing_figure(folder, "bearing_stiffness", stage, bearings, gear::palmgren_stiffness, 1e8,
+    figures.push_back(bearing_figure(folder, "bearing_stiffness", stage, bearings, &gear::BearingData::stiffness, 1e8,
                                      "bearing stiffness", "Tangent stiffness  dF/dδ  [10^8 N/m]"));
-    figures.push_back(bearing_figure(folder, "bearing_force", stage, bearings, gear::palmgren_force, 1e3,
+    figures.push_back(bearing_figure(folder, "bearing_force", stage, bearings, &gear::BearingData::force, 1e3,
                                      "bearing force", "Radial force  F  [kN]"));
   }
   figures.push_back(teeth_figure(folder, stage, set.sun_planet.pair,

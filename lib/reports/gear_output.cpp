@@ -214,15 +214,14 @@ std::string bearings_csv(const gear::Catalogue& catalogue) {
   const auto rows = [&](const char* member, const std::optional<gear::SupportBearing>& bearing) {
     if (!bearing) return;
     const gear::BearingData data = *gear::bearing_data(*bearing);
-    const double coefficient = data.coefficient();
     constexpr int count = 50;
     for (int k = 0; k <= count; ++k) {
       const double approach_um = k;
-      csv.row(member, data.name, approach_um, gear::palmgren_stiffness(coefficient, approach_um * 1e-6),
-              gear::palmgren_force(coefficient, approach_um * 1e-6));
+      csv.row(member, data.name, approach_um, data.stiffness(approach_um * 1e-6), data.force(approach_um * 1e-6));
     }
   };
   rows("sun", catalogue.sun_bearing);
+  rows("planet", catalogue.planet_bearing);
   rows("carrier", catalogue.carrier.bearing);
   return csv.text();
 }

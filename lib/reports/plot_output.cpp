@@ -177,8 +177,10 @@ struct Described {
 Described described(const std::string& column) {
   static const auto listed_columns = [] {
     std::vector<std::pair<std::string, Described>> all;
-    for (const auto& c : store::point_columns(gear::planets_max)) all.push_back({c.name, {c.meaning, c.unit}});
-    for (const auto& c : store::branch_columns(gear::planets_max)) all.push_back({c.name, {c.meaning, c.unit}});
+    for (const auto& c : store::point_columns(gear::planets_max, {}, {true, true}))
+      all.push_back({c.name, {c.meaning, c.unit}});
+    for (const auto& c : store::branch_columns(gear::planets_max, {true, true}))
+      all.push_back({c.name, {c.meaning, c.unit}});
     return all;
   }();
   const auto found = std::ranges::find(listed_columns, column, &std::pair<std::string, Described>::first);

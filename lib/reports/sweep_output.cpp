@@ -234,7 +234,7 @@ namespace {
 
 std::vector<store::PointColumn> columns_of(const studies::PointSource& points,
                                            const std::vector<store::PointColumn>& more) {
-  return store::point_columns(points.count == 0 ? 0 : points.read_summary(0).meshes.sun_planet.size(), more);
+  return points.count == 0 ? store::point_columns(0, more) : store::point_columns_like(points.read_summary(0), more);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 
 #include "core/csv.hpp"
 #include "gear/kinematics.hpp"
-#include "store/stage_columns.hpp"
 
 namespace epicyclic::store {
 
@@ -40,7 +39,7 @@ std::string multiplier_text(const std::complex<double>& multiplier) {
   return text + (std::signbit(multiplier.imag()) ? "-" : "+") + imaginary + "i";
 }
 
-std::vector<Column<BranchPlace>> branch_columns(std::size_t planets) {
+std::vector<Column<BranchPlace>> branch_columns(std::size_t planets, const KnownLives& lives) {
   using Integer = Column<BranchPlace>::Getter<std::int64_t>;
   using Number = Column<BranchPlace>::Getter<double>;
   const auto integer = [](auto x) { return static_cast<std::int64_t>(x); };
@@ -66,6 +65,7 @@ std::vector<Column<BranchPlace>> branch_columns(std::size_t planets) {
   all.push_back({"orbit_residual", "b_c, b_c per tau", "by which the orbit found does not close",
                  Number([](const BranchPlace& p) { return p.row.residual; })});
   append(planet_columns(planets));
+  append(life_columns(planets, lives));
   if (planets == 1) std::erase_if(all, [](const auto& column) { return !is_of_pair(column.name); });
   return all;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "store/column.hpp"
+#include "store/stage_columns.hpp"
 #include "studies/branches.hpp"
 #include "studies/loci.hpp"
 
@@ -20,7 +21,8 @@ struct BranchPlace {
 };
 
 /// @param planets  number N
-[[nodiscard]] std::vector<Column<BranchPlace>> branch_columns(std::size_t planets);
+/// @param lives    bearings whose lives are known
+[[nodiscard]] std::vector<Column<BranchPlace>> branch_columns(std::size_t planets, const KnownLives& lives = {});
 [[nodiscard]] std::vector<Column<studies::SpecialRow>> special_columns();
 
 /// A point of a locus.

@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "store/stage_columns.hpp"
-
 namespace epicyclic::store {
 
 namespace {
@@ -61,7 +59,12 @@ std::string direction_word(studies::Direction direction) { return direction == s
 
 std::string regime_word(const PointSummary& r) { return ok(r) ? to_string(r.regime) : ""; }
 
-std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<PointColumn>& more) {
+std::vector<PointColumn> point_columns_like(const PointSummary& point, const std::vector<PointColumn>& more) {
+  return point_columns(point.meshes.sun_planet.size(), more, known_lives(point.meshes));
+}
+
+std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<PointColumn>& more,
+                                       const KnownLives& lives) {
   const auto integer = [](auto x) { return static_cast<std::int64_t>(x); };
   std::vector<PointColumn> all = {{"point", "1", "number of the point in the study, from 0",
                                    Integer([=](const PointSummary& r) { return integer(r.point.index); })},
@@ -108,6 +111,7 @@ std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<Po
   add("converged", "1", "0 if the orbit is periodic and the record has not converged to it, else 1",
       Integer([=](const PointSummary& r) { return integer(!ok(r) || !r.is_unconverged()); }));
   append(planet_columns(planets));
+  append(life_columns(planets, lives));
   add("message", "", "what went wrong, of a point that was not reached",
       Words([](const PointSummary& r) { return r.message; }));
   if (planets == 1) std::erase_if(all, [](const PointColumn& column) { return !is_of_pair(column.name); });

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "store/column.hpp"
+#include "store/stage_columns.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::store {
@@ -25,6 +26,12 @@ using PointColumn = Column<studies::PointSummary>;
 /// All of them, in the order of points.csv.
 /// @param planets  number N: columns for each mesh and bearing of each
 /// @param more     that a kind of study adds, behind `value`
-[[nodiscard]] std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<PointColumn>& more = {});
+/// @param lives    bearings whose lives are known
+[[nodiscard]] std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<PointColumn>& more = {},
+                                                     const KnownLives& lives = {});
+
+/// Those of a study with such points.
+[[nodiscard]] std::vector<PointColumn> point_columns_like(const studies::PointSummary& point,
+                                                          const std::vector<PointColumn>& more = {});
 
 }  // namespace epicyclic::store

@@ -166,6 +166,35 @@ std::vector<StageColumn> stage_columns() {
   return all;
 }
 
+KnownLives known_lives(const StageRecord& record) {
+  return {!record.planet_lives.empty(), record.sun_life.has_value()};
+}
+
+std::vector<StageColumn> life_columns(std::size_t planets, const KnownLives& known) {
+  using LifeOf = std::function<gear::BearingLife(const StageRecord&)>;
+  std::vector<StageColumn> all;
+  const auto add_life = [&all](const std::string& name, const std::string& whose, const LifeOf& of) {
+    const auto number = [&](const char* unit, const char* column_unit, const std::string& meaning,
+                            double gear::BearingLife::*member) {
+      add(all, name + "_" + unit, column_unit, meaning + " of " + whose,
+          Number([of, member](const StageRecord& r) { return of(r).*member; }));
+    };
+    number("load_N", "N", "equivalent load P", &gear::BearingLife::equivalent_load_N);
+    number("life_Mrev", "10^6 revolutions", "basic rating life L10", &gear::BearingLife::million_revolutions);
+    number("life_h", "h", "basic rating life L10h", &gear::BearingLife::hours);
+  };
+  if (known.planets)
+    add(all, "bearing_life_min_h", "h", "shortest basic rating life L10h of any planet's bearing",
+        Number([](const StageRecord& r) { return r.shortest_life(); }));
+  if (known.sun)
+    add_life("sun_bearing", "the sun's bearing",
+             [](const StageRecord& r) { return r.sun_life.value_or(gear::BearingLife()); });
+  for (std::size_t i = 0; known.planets && i < planets; ++i)
+    add_life("bearing_" + std::to_string(i + 1), "the bearing of planet " + std::to_string(i + 1),
+             [i](const StageRecord& r) { return i < r.planet_lives.size() ? r.planet_lives[i] : gear::BearingLife(); });
+  return all;
+}
+
 std::vector<StageColumn> planet_columns(std::size_t planets) {
   std::vector<StageColumn> all;
   for (const Kind& kind : kinds)

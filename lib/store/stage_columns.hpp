@@ -21,6 +21,15 @@ using StageColumn = Column<studies::StageRecord>;
 /// Of each mesh and bearing of each planet.
 [[nodiscard]] std::vector<StageColumn> planet_columns(std::size_t planets);
 
+/// Bearings whose lives are known: there are columns for them.
+struct KnownLives {
+  bool planets = false, sun = false;
+};
+[[nodiscard]] KnownLives known_lives(const studies::StageRecord& record);
+
+/// Lives of bearings [G-life].
+[[nodiscard]] std::vector<StageColumn> life_columns(std::size_t planets, const KnownLives& known);
+
 /// Does a lone pair of gears have the column? It has no ring, no carrier, and nothing to share loads with.
 [[nodiscard]] bool is_of_pair(std::string_view column);
 

@@ -162,6 +162,11 @@ double StageRecord::largest_bearing_force() const {
   return planet_bearing.empty() ? 0.0 : std::ranges::max(planet_bearing, {}, &Course::largest).largest;
 }
 
+double StageRecord::shortest_life() const {
+  if (planet_lives.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return std::ranges::min(planet_lives, {}, &gear::BearingLife::hours).hours;
+}
+
 ResponseStatistics::ResponseStatistics(const model::DynamicModel& model, int phases, StatisticsOptions options)
     : model_(model),
       rows_{static_cast<std::size_t>(model.planets)},
@@ -186,6 +191,10 @@ ResponseStatistics::ResponseStatistics(const model::DynamicModel& model, int pha
   for (std::size_t i = 0; i < rows_.planets; ++i)
     forces_.insert(forces_.end(), {rows_.sun_planet(i).force(), rows_.ring_planet(i).force(), rows_.planet_bearing(i)});
   forces_.push_back(rows_.sun_bearing());
+  if (model.bearings.planet)
+    for (std::size_t i = 0; i < rows_.planets; ++i)
+      rated_planets_.push_back({rows_.planet_bearing(i), *model.bearings.planet});
+  if (model.bearings.sun) rated_sun_.push_back({rows_.sun_bearing(), *model.bearings.sun});
   coarse_.assign(forces_.size(), Numbers(0.0));
 }
 
@@ -238,6 +247,10 @@ void ResponseStatistics::recording(std::size_t group, std::size_t count) {
     }
     spread_ = max(spread_, most - least);
   }
+  for (auto* list : {&rated_planets_, &rated_sun_})
+    for (Rated& rated : *list)
+      for (std::size_t lane = 0; lane < count; ++lane)
+        if (one[lane] != 0.0) rated.sum += std::pow(now_[rated.row][lane], rated.bearing.exponent);
   const std::array signals = {rows_.sun_planet(0).delta(), rows_.ring_planet(0).delta(), rows_.transmission_error()};
   for (std::size_t lane = 0; lane < count; ++lane) {
     if (one[lane] == 0.0) continue;
@@ -279,6 +292,8 @@ StageRecord ResponseStatistics::finish() {
   all.planet_spread = largest_of(spread_);
   all.force_error = force_error();
   all.sun_bearing = course(rows_.sun_bearing(), newton);
+  for (const Rated& rated : rated_planets_) all.planet_lives.push_back(life(rated));
+  for (const Rated& rated : rated_sun_) all.sun_life = life(rated);
   all.transmission_error = course(rows_.transmission_error(), 1.0);
   all.sun_planet_harmonics = harmonics(profiles_[0]);
   all.ring_planet_harmonics = harmonics(profiles_[1]);
@@ -304,6 +319,12 @@ Course ResponseStatistics::course(std::size_t row, double unit) const {
   c.mean = unit * (s.first[0] + mean);
   c.rms = unit * std::sqrt(std::max(0.0, sum_of(s.squares) / count - mean * mean));
   return c;
+}
+
+gear::BearingLife ResponseStatistics::life(const Rated& rated) const {
+  if (seen_ == 0) return {};
+  const double mean = rated.sum / static_cast<double>(weighed_);
+  return gear::bearing_life(rated.bearing, model_.scales.force_newton(std::pow(mean, 1.0 / rated.bearing.exponent)));
 }
 
 double ResponseStatistics::force_error() const {

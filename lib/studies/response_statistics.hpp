@@ -6,6 +6,7 @@
 //   largest force  max F_i / F_0 ,  F_0 = T_D / (N r_bs): all effects in one number                           [S-force]
 //   dynamic factor K_v,i = max F_i / max F_qs,i                                                               [S-kv]
 //   load factor    K_gamma = N max_i max_s F_qs,i / sum_j mean_s F_qs,j                                     [S-kgamma]
+//   life           L10 of bearings whose load rating is known, by the mean of F^p                            [G-life]
 //   harmonics      x_h = 2 | mean x(s) e^(-i h s) | ,  h = 1, 2, 3, over whole periods                        [S-harm]
 //
 // F_qs,i(s) is the force of the same mesh in the quasi-static solution [model/static_equilibrium.hpp], at the phases of
@@ -20,6 +21,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -90,7 +92,9 @@ struct StageRecord {
   double planet_spread = 0;             ///< largest difference between planets' deflections of one kind of mesh [b_c]
   std::vector<Course> planet_bearing;   ///< magnitude of the force, one per planet [N]
   Course sun_bearing;                   ///< likewise
-  Course transmission_error;            ///< [S-te] [b_c]
+  std::vector<gear::BearingLife> planet_lives;  ///< one per planet if the load rating of their bearings is known
+  std::optional<gear::BearingLife> sun_life;    ///< likewise
+  Course transmission_error;                    ///< [S-te] [b_c]
   MeshHarmonics sun_planet_harmonics{}, ring_planet_harmonics{};  ///< of the deflections of planet 1
   MeshHarmonics transmission_error_harmonics{};
   /// Estimated relative error of the largest forces by sampling [S-sampling]: a third of what twice as many samples add
@@ -121,6 +125,8 @@ struct StageRecord {
   [[nodiscard]] static double tension_time(const std::vector<MeshRecord>& meshes);
   /// Largest part of the time that one of them is out of contact.
   [[nodiscard]] static double loss_time(const std::vector<MeshRecord>& meshes);
+  /// Shortest life of a planet's bearing [h]; not a number if none is known.
+  [[nodiscard]] double shortest_life() const;
   /// Largest force of a planet's bearing [N].
   [[nodiscard]] double largest_bearing_force() const;
 };
@@ -167,7 +173,15 @@ class ResponseStatistics {
     Numbers drive{0.0}, back{0.0}, tensile{0.0}, tension{0.0};
   };
 
+  /// A bearing with a load rating, and the sum of F^p at uniform phases [G-life].
+  struct Rated {
+    std::size_t row;
+    gear::RatedBearing bearing;
+    double sum = 0;
+  };
+
   void recording(std::size_t group, std::size_t count);
+  [[nodiscard]] gear::BearingLife life(const Rated& rated) const;
   void count_contact(const model::OutputRows::Mesh& at, double half_gap, const Numbers& one, Counts& counts) const;
   [[nodiscard]] Course course(std::size_t row, double unit) const;
   [[nodiscard]] double force_error() const;
@@ -184,7 +198,8 @@ class ResponseStatistics {
   std::vector<Numbers> states_, now_;  ///< of the present group
   std::vector<Sums> sums_;
   std::vector<std::size_t> forces_;  ///< rows of forces of meshes and bearings
-  std::vector<Numbers> coarse_;      ///< their largest values without the odd samples
+  std::vector<Rated> rated_planets_, rated_sun_;
+  std::vector<Numbers> coarse_;  ///< their largest values without the odd samples
   std::vector<Counts> sun_planet_, ring_planet_;
   Numbers spread_{0.0};
   /// Sums over the periods at each phase: of delta_sp_1, delta_rp_1 and the transmission error.

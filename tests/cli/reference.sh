@@ -35,6 +35,7 @@ studies=(
   "run tang2020_run.json --set /study/transient=fixed ${few[*]} --set /study/exponent_periods=2 --set /study/spectrum_periods=4 --set /study/history_periods=2 --set /study/check_tolerance=1e-6"
   "tolerance tang2020_tolerance.json --set /study/points=1 --set /study/from=2.8 ${rough[*]} --set /study/tolerances=[1e-5,1e-6] --set /study/methods=[\"arkode-dopri5\"] --set /study/chaotic_periods=64"
   "crosscheck tang2020_crosscheck.json --set /study/points=1 --set /study/from=2.8 --set /study/to=2.8 ${rough[*]} --set /study/methods=[\"arkode-dopri5\",\"cvode-adams\"]"
+  "ramp tang2020_ramp.json --set /study/rate_per_tau=0.02 --set /study/hold_periods=2"
   "gear tang2020.json"
 )
 for study in "${studies[@]}"; do

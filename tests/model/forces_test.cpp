@@ -103,7 +103,8 @@ Real potential(const gear::Stage& stage, const Scales& scales, Real w, Real s, c
     v += k_unit * rp.stiffness(i, s) * gap_potential(d_rp, b_rp, w);
     const Real d_x = x - x_c + u_c * std::sin(phi);
     const Real d_y = y - y_c - u_c * std::cos(phi);
-    v += k(stage.planet.bearing_N_per_m[i]) * (d_x * d_x + d_y * d_y) / 2;
+    const Real b_p = scales.displacement(stage.planet.bearing_clearance_half_um.value_or(0.0) * 1e-6);
+    v += k(stage.planet.bearing_N_per_m[i]) * gap_potential(std::hypot(d_x, d_y), b_p, b_p > 0.0L ? w : 0.0L);
   }
   return v;
 }
@@ -142,6 +143,11 @@ void without_damping_and_loads(Parameters<double, planets>& p) {
 
 gear::Stage with_bearing(gear::Stage s, gear::BearingLaw law, double half_gap_um) {
   s.sun_bearing = {half_gap_um, law, 10, 16.67, 0.0};
+  return s;
+}
+
+gear::Stage with_planet_clearance(gear::Stage s, double half_gap_um) {
+  s.planet.bearing_clearance_half_um = half_gap_um;
   return s;
 }
 
@@ -203,6 +209,9 @@ TEST(Forces, ElasticPartIsMinusTheGradientOfThePotential) {
       {"palmgren_radial", with_bearing(base, BearingLaw::palmgren_radial, 10), 0.0},
       {"no gap", with_bearing(problems::with_gap(base, 0.0), BearingLaw::linear_xy, 0), 0.0},
       {"as_printed", with_bearing(problems::as_printed(base), BearingLaw::linear_xy, 10), 0.0},
+      {"planet bearings", with_planet_clearance(base, 25), 0.0},
+      {"planet bearings smooth", with_planet_clearance(base, 25), 0.05},
+      {"planet bearings without gap", with_planet_clearance(base, 0), 0.0},
       {"unequal angles", with_bearing(problems::with_unequal_angles(base), BearingLaw::linear_radial, 10), 0.0},
   };
   double worst = 0.0;
@@ -212,6 +221,58 @@ TEST(Forces, ElasticPartIsMinusTheGradientOfThePotential) {
     worst = std::max(worst, error);
   }
   RecordProperty("worst_relative_error", std::to_string(worst * 1e15) + "e-15");
+}
+
+TEST(Forces, PlanetBearingsArePressedAlongTheirRadiusBeyondTheClearance) {
+  const gear::Stage stage = with_planet_clearance(problems::r1(), 20);
+  const Scales scales = scales_of(stage);
+  const auto model = make_dynamic_model(stage, scales, 0.9, {});
+  const double k = scales.stiffness(stage.planet.bearing_N_per_m);
+  const double c = scales.damping(stage.planet.damping.of(stage.planet.bearing_N_per_m, stage.planet.mass_kg));
+  StageForces f;
+  constexpr double rounding = 1e-12;
+  const auto at = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(model.state_names, name) - model.state_names.begin());
+  };
+  for (const double r : {0.0, 1.0, 1.9, 2.5, 7.0}) {  // half gap 2 b_c
+    std::vector<double> y(model.dimension, 0.0);
+    y[at("x_p1")] = 0.6 * r;
+    y[at("y_p1")] = 0.8 * r;
+    model.forces(0.3, y.data(), f);
+    EXPECT_NEAR(f.planet_bearing[0], k * std::max(0.0, r - 2.0), rounding * k * 7.0) << r;
+    EXPECT_EQ(f.planet_bearing[1], 0.0);
+    // The damping acts through the gap.
+    y[at("x_p1_rate")] = 0.3;
+    model.forces(0.3, y.data(), f);
+    EXPECT_NEAR(f.planet_bearing[0],
+                std::hypot(k * 0.6 * std::max(0.0, r - 2.0) + c * 0.3, k * 0.8 * std::max(0.0, r - 2.0)),
+                rounding * k * 7.0)
+        << r;
+  }
+}
+
+TEST(Forces, APlanetRestsByTheClearanceFurtherOut) {
+  // Statically the clearance only turns the carrier: all forces are those of the stage without it.
+  const gear::Stage without = problems::r1();
+  const gear::Stage with = with_planet_clearance(without, 20);
+  const Scales scales = scales_of(without);
+  const auto rest = [&](const gear::Stage& stage) {
+    const DynamicModel model = make_dynamic_model(stage, scales, 0.9, {});
+    const std::vector<double> phase{0.7};
+    const auto states = model.quasi_static_states(phase);
+    StageForces f;
+    if (!states.empty()) model.forces(phase[0], states[0].data(), f);
+    return f;
+  };
+  const StageForces a = rest(without);
+  const StageForces b = rest(with);
+  ASSERT_EQ(a.planet_bearing.size(), planets);
+  ASSERT_EQ(b.planet_bearing.size(), planets);
+  for (std::size_t i = 0; i < planets; ++i) {
+    constexpr double solver = 1e-5;  // load that Newton's method leaves, over the stage's softest support
+    EXPECT_NEAR(b.planet_bearing[i] / a.planet_bearing[i], 1.0, solver) << i;
+    EXPECT_NEAR(b.sun_planet_elastic[i] / a.sun_planet_elastic[i], 1.0, solver) << i;
+  }
 }
 
 // ---- deflections ------------------------------------------------------------------------------------------------

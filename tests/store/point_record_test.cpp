@@ -141,6 +141,31 @@ TEST(PointRecord, ComesBackExactly) {
   }
 }
 
+TEST(PointRecord, LivesOfBearingsComeBackExactly) {
+  for (const bool of_planets : {false, true})
+    for (const bool of_sun : {false, true})
+      for (const std::size_t planets : {std::size_t{1}, std::size_t{3}}) {
+        studies::PointResult a = example();
+        a.meshes.sun_planet.resize(planets);
+        a.meshes.planet_bearing.resize(planets);
+        for (std::size_t i = 0; of_planets && i < planets; ++i)
+          a.meshes.planet_lives.push_back({1.0 + static_cast<double>(i), 2.0, 3.0});
+        if (of_sun) a.meshes.sun_life = gear::BearingLife{4.0, 5.0, 6.0};
+        const studies::PointResult b = decode_point(encode_point(a));
+        EXPECT_EQ(encode_point(b), encode_point(a));
+        EXPECT_EQ(b.meshes.planet_bearing.size(), planets);
+        ASSERT_EQ(b.meshes.planet_lives.size(), a.meshes.planet_lives.size());
+        if (of_planets) {
+          EXPECT_EQ(b.meshes.planet_lives.back().equivalent_load_N, static_cast<double>(planets));
+          EXPECT_EQ(b.meshes.planet_lives.back().hours, 3.0);
+        }
+        ASSERT_EQ(b.meshes.sun_life.has_value(), of_sun);
+        if (of_sun) {
+          EXPECT_EQ(b.meshes.sun_life->million_revolutions, 5.0);
+        }
+      }
+}
+
 TEST(PointRecord, AnyPartOfItIsRefused) {
   const std::vector<std::byte> record = encode_point(example());
   for (std::size_t n = 0; n < record.size(); ++n)

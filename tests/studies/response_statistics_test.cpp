@@ -3,14 +3,18 @@
 #include "studies/response_statistics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/quadrature.hpp"
 #include "model/dynamic_model.hpp"
 #include "problems/r1.hpp"
 #include "studies/sweep.hpp"
@@ -65,6 +69,45 @@ TEST(ResponseStatistics, TellsWhatAHarmonicMotionIs) {
   }
   const StageRecord r = record_of([](double s) { return std::cos(s); }, 64, 2);
   EXPECT_NEAR(r.sun_planet[0].delta.range(), 2.0, rounding);
+}
+
+TEST(ResponseStatistics, LivesAreThoseOfTheMeanPowerOfTheForce) {
+  // The force F = a + b cos s of both bearings: mean F^3 = a^3 + 3/2 a b^2, mean F^(10/3) by quadrature.
+  constexpr double a = 2.0;
+  constexpr double b = 1.5;
+  model::DynamicModel m = two_signals(1.0);
+  m.scales = model::scales_of(problems::r1());
+  m.bearings.planet = gear::RatedBearing{30e3, 10.0 / 3.0, 40.0};
+  m.bearings.sun = gear::RatedBearing{20e3, 3.0, 100.0};
+  m.outputs_at = [](std::span<const double> /*phases*/) -> model::StageOutputs {
+    return [](std::size_t /*group*/, const double* states, double* rows) {
+      constexpr model::OutputRows at{1};
+      constexpr std::size_t together = model::phases_together;
+      std::fill(rows, rows + at.count() * together, 0.0);
+      for (std::size_t lane = 0; lane < together; ++lane)
+        rows[at.planet_bearing(0) * together + lane] = rows[at.sun_bearing() * together + lane] = states[lane];
+    };
+  };
+  ResponseStatistics watch(m, 64);
+  for (int period = 0; period < 3; ++period)
+    for (const double s : watch.phases()) watch.see(std::array{a + b * std::cos(s), 0.0});
+  const StageRecord r = watch.finish();
+  ASSERT_TRUE(r.sun_life);
+  ASSERT_EQ(r.planet_lives.size(), 1U);
+  const double newton = m.scales.force_newton(1.0);
+  EXPECT_NEAR(r.sun_life->equivalent_load_N / (newton * std::cbrt(a * a * a + 1.5 * a * b * b)), 1.0, rounding);
+  const double mean = gauss_legendre_16().integrate([](double s) { return std::pow(a + b * std::cos(s), 10.0 / 3.0); },
+                                                    0.0, 2.0 * pi, 20) /
+                      (2.0 * pi);
+  constexpr double trapezoidal = 1e-9;  // 64 samples of a function that is smooth: F > 0
+  EXPECT_NEAR(r.planet_lives[0].equivalent_load_N / (newton * std::pow(mean, 0.3)), 1.0, trapezoidal);
+  EXPECT_NEAR(r.planet_lives[0].million_revolutions, std::pow(30e3 / r.planet_lives[0].equivalent_load_N, 10.0 / 3.0),
+              rounding * r.planet_lives[0].million_revolutions * 100.0);
+  EXPECT_EQ(r.shortest_life(), r.planet_lives[0].hours);
+  m.bearings = {};
+  ResponseStatistics without(m, 64);
+  EXPECT_FALSE(without.finish().sun_life);
+  EXPECT_TRUE(std::isnan(without.finish().shortest_life()));
 }
 
 TEST(ResponseStatistics, SubharmonicsAreNoMeshHarmonics) {

@@ -694,6 +694,21 @@ class Crosscheck(Result):
         return self.table("crosscheck")
 
 
+class Ramp(Result):
+    """Windows of a run-up and run-down by ``ramp``."""
+
+    _points = ("ramp", "ramp")
+
+    @property
+    def orders(self) -> Any:
+        """Amplitudes over window and order: DataFrame."""
+        return self.table("orders")
+
+    def section(self, point: Any) -> Any:
+        """Refuse: a response at a changing speed has no Poincaré points."""
+        raise ResultError(f"{self.folder}: a ramp has no Poincaré points")
+
+
 class Gear(Result):
     """Geometry, stiffness, friction and modes of a stage."""
 
@@ -739,6 +754,7 @@ _CLASSES: Dict[str, Type[Result]] = {
     "map": Map,
     "basins": Basins,
     "run": Run,
+    "ramp": Ramp,
     "continue": Branches,
     "tolerance": Tolerance,
     "crosscheck": Crosscheck,
@@ -779,8 +795,8 @@ def open(folder: Union[str, Path]) -> Result:  # noqa: A001
     Returns
     -------
     Result
-        An object of the kind of its study: ``Sweep``, ``Map``, ``Basins``, ``Run``, ``Branches``,
-        ``Tolerance``, ``Crosscheck``, ``Gear``, ``Scorecard``, ``Calibration`` or ``Robustness``.
+        An object of the kind of its study: ``Sweep``, ``Map``, ``Basins``, ``Run``, ``Ramp``,
+        ``Branches``, ``Tolerance``, ``Crosscheck``, ``Gear``, ``Scorecard``, ``Calibration`` or ``Robustness``.
 
     Raises
     ------

@@ -13,7 +13,7 @@ import numpy as np
 
 from ._errors import InputError, core, repr_of
 from ._jobs import Job, ProgressFunction
-from ._results import Basins, Branches, Crosscheck, Gear, Map, Run, Sweep, Tolerance
+from ._results import Basins, Branches, Crosscheck, Gear, Map, Ramp, Run, Sweep, Tolerance
 
 #: What a study is given by.
 Document = Dict[str, Any]
@@ -265,6 +265,12 @@ class Stage:
     def run(self, *, out: Folder = None, threads: Optional[int] = None, progress: Progress = None, **keys: Any) -> Run:
         """Compute one operating point with all results; see ``sweep`` for the arguments."""
         return cast(Run, self._compute("run", out, threads, progress, keys))
+
+    def ramp(
+        self, *, out: Folder = None, threads: Optional[int] = None, progress: Progress = None, **keys: Any
+    ) -> Ramp:
+        """Run the speed up and down at a given rate; see ``sweep`` for the arguments."""
+        return cast(Ramp, self._compute("ramp", out, threads, progress, keys))
 
     def sweep(
         self,

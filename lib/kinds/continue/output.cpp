@@ -108,13 +108,21 @@ std::vector<store::LocusPlace> locus_places(const std::vector<studies::TracedLoc
   return places;
 }
 
+/// Bearings whose lives the orbits have.
+store::KnownLives lives_on(const TracedBranches& traced, const Flat& flat) {
+  for (const auto& place : flat.places)
+    if (const studies::BranchRow& row = place_of(traced, place).row; row.evaluated)
+      return store::known_lives(row.meshes);
+  return {};
+}
+
 void write_h5(const std::filesystem::path& file, const ContinueOutput& output, const TracedBranches& traced,
               const std::vector<studies::TracedLocus>& loci) {
   const Flat flat(traced);
   store::Hdf5File h5(file);
   h5.set_attribute("/", "input_resolved", output.resolved_input);
   h5.set_attribute("/", "parameter", output.options.parameter);
-  write_table_h5(h5, "/branches", store::branch_columns(output.planets), flat.places.size(),
+  write_table_h5(h5, "/branches", store::branch_columns(output.planets, lives_on(traced, flat)), flat.places.size(),
                  [&](std::size_t i) { return place_of(traced, flat.places[i]); });
   write_table_h5(h5, "/special", store::special_columns(), traced.special.size(),
                  [&](std::size_t i) -> const SpecialRow& { return traced.special[i]; });
@@ -331,8 +339,8 @@ SpecialLetters letters_of(SpecialKind kind) {
 void write_branch_tables(const std::filesystem::path& folder, const ContinueOutput& output,
                          const TracedBranches& traced) {
   const Flat flat(traced);
-  write_table_csv(folder / "branch.csv", store::branch_columns(output.planets), flat.places.size(),
-                  [&](std::size_t i) { return place_of(traced, flat.places[i]); });
+  write_table_csv(folder / "branch.csv", store::branch_columns(output.planets, lives_on(traced, flat)),
+                  flat.places.size(), [&](std::size_t i) { return place_of(traced, flat.places[i]); });
   write_table_csv(folder / "special.csv", store::special_columns(), traced.special.size(),
                   [&](std::size_t i) -> const SpecialRow& { return traced.special[i]; });
   write_branches_csv(folder / "branches.csv", traced);
