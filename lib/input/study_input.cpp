@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "input/aliases.hpp"
+#include "input/curve_files.hpp"
 #include "input/given_speeds.hpp"
 #include "input/input_sources.hpp"
 #include "input/origins.hpp"
@@ -85,6 +86,7 @@ class LoadedInput::Loader {
       if (!is_early(set) && !(stage_missing_ && pointer_within(set.pointer, stage_root))) make(set);
     for (auto& set : sources_->sets)
       if (sources_->bare && pointer_within(set.pointer, stage_root)) set.pointer.erase(0, stage_root.size());
+    read_curves();
     read_values();
     check_varied();
     if (!problems_.empty()) raise();
@@ -240,6 +242,23 @@ class LoadedInput::Loader {
     }
     input_.stage_file = RawFile{stage_path.filename().string(), stage.bytes};
     sources_->stage = std::move(stage);
+  }
+
+  /// Puts the rows of the CSV files that curves name in the places of the names.
+  void read_curves() {
+    json* stage = sources_->bare ? &whole_ : find_at(whole_, stage_root);
+    if (stage == nullptr) return;
+    read_curve_files(
+        *stage, std::string(sources_->bare ? "" : stage_root),
+        [this](const std::string& pointer, const std::string& name) -> const TextFile& {
+          const bool of_stage = sources_->stage && sources_->locate(pointer, "").file == sources_->stage->name;
+          const std::filesystem::path beside = of_stage ? sources_->stage->name : sources_->path.string();
+          return sources_->files->read_text(beside.parent_path() / name, "CSV");
+        },
+        [this](const std::string& pointer, std::string message) {
+          refuse(pointer, std::move(message));
+          found_.insert(pointer);
+        });
   }
 
   void patch_stage() {
@@ -446,7 +465,10 @@ class LoadedInput::Loader {
         // Values from catalogue data are computed only once if the fixed value alone affects them.
         json completed;
         Study with_fixed;
-        if (!feeds_completion(along.name, sources_->bare) && feeds_completion(other.name, sources_->bare) &&
+        const auto feeds = [this](const std::string& pointer) {
+          return feeds_completion(pointer, sources_->bare, input_.study.stage);
+        };
+        if (!feeds(along.name) && feeds(other.name) &&
             check_with(as_given(), other, {fixed}, with_fixed, &completed).empty())
           check_values(along, place, {completed, as_given().study == nullptr ? nullptr : &with_fixed}, {}, words);
         else
@@ -525,7 +547,7 @@ std::vector<Problem> LoadedInput::check_with(const Base& base, std::span<const P
       return refuse("\"" + place + "\" is " + described(*there) + ", must be a number" +
                     (there->is_array() && !there->empty() ? "; did you mean '" + pointer + "/0'?" : ""));
     if (!std::isfinite(value)) return refuse("is " + number_text(value) + ", must be a finite number");
-    is_completed = is_completed && !feeds_completion(place, sources_->bare);
+    is_completed = is_completed && !feeds_completion(place, sources_->bare, study.stage);
     places.push_back({std::move(place), value});
   }
   ReadContext context;

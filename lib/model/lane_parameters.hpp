@@ -87,11 +87,13 @@ template <std::size_t N, std::size_t W>
 struct LaneMeshPlaces {
   std::array<LanePlace<1, W>, N> stiffness;
   std::array<LanePlace<3, W>, N> friction;
+  std::array<LanePlace<2, W>, N> error;
 
   void set(std::size_t lane, const MeshParameters<double, N>& mesh, const MeshPlaces<N>& places) {
     for (std::size_t i = 0; i < N; ++i) {
       if (mesh.stiffness_curve) stiffness[i].set(lane, *mesh.stiffness_curve, places.stiffness[i]);
       if (mesh.friction) friction[i].set(lane, mesh.friction->track(), places.friction[i]);
+      if (mesh.error_curve) error[i].set(lane, *mesh.error_curve, places.error[i]);
     }
   }
 };
@@ -152,7 +154,9 @@ void LaneParameters<N, W>::check(const Parameters<double, N>& p) const {
   const auto& own = constants_;
   const auto mesh_fits = [](const MeshParameters<double, N>& m, const MeshParameters<Lanes<W>, N>& to) {
     bool alike = m.harmonics == to.harmonics && (m.friction != nullptr) == (to.friction != nullptr) &&
-                 (m.stiffness_curve != nullptr) == (to.stiffness_curve != nullptr);
+                 (m.stiffness_curve != nullptr) == (to.stiffness_curve != nullptr) &&
+                 (m.error_curve != nullptr) == (to.error_curve != nullptr) &&
+                 m.further_error_cos.size() == to.further_error_cos.size();
     for (std::size_t i = 0; i < N; ++i) alike = alike && m.phase_cycles[i] == to.phase_cycles[i];
     return alike;
   };

@@ -5,7 +5,8 @@
 //
 //   s_spi = s - z_s (phi_i - phi_1) ,  s_rpi = s + z_r (phi_i - phi_1) + 2 pi lambda_sr                  [M-phase]
 //   k_i(s) = k_0 + sum_h [ C_hi cos h s + S_hi sin h s ]  or a table over s_i                            [M-4]
-//   e_i(s) = a_i cos s + b_i sin s + e_0i   from   E_i sin(s_i + phi_0i) and constant errors             [M-e]
+//   e_i(s) = sum_h [ a_hi cos h s + b_hi sin h s ] + e_0i   from   E_i sin(s_i + phi_0i), harmonics and constant
+//            errors, and a table over s_i                                                                [M-e]
 //
 // Units: displacements in b_c, time in tau, masses in m_0 (model/scales.hpp). Source: docs/theory/model.md, section 5;
 // Eq. (4) with a time shift inside the cosine, Eq. (1) with opposite signs. T is the scalar of the kernel: one lane,
@@ -36,9 +37,11 @@ struct MeshParameters {
   T stiffness;                 ///< k_0
   std::size_t harmonics = 0;
   std::vector<Row<T, N>> stiffness_cos, stiffness_sin;      ///< C_hi, S_hi; [harmonics][N]
-  Row<T, N> error_cos{}, error_sin{};                       ///< a_i, b_i
+  Row<T, N> error_cos{}, error_sin{};                       ///< a_1i, b_1i
+  std::vector<Row<T, N>> further_error_cos, further_error_sin;  ///< a_hi, b_hi, h = 2, 3, ...; as many of both
   Row<T, N> error_mean{};                                   ///< e_0i [M-e]
   std::shared_ptr<const PeriodicTrack<1>> stiffness_curve;  ///< in place of k_0 and harmonics; null without
+  std::shared_ptr<const PeriodicTrack<2>> error_curve;      ///< e and de/ds [M-e-curve]; null without
   std::shared_ptr<const FrictionTrack> friction;            ///< null without friction
   Row<double, N> phase_cycles{};                            ///< mesh phase of planet i over 2 pi, at s = 0
   bool in_phase = false;                                    ///< the same for all planets, to rounding
@@ -47,7 +50,7 @@ struct MeshParameters {
 /// Places of one kind of mesh in its tables while s is between two neighbouring breakpoints.
 template <std::size_t N>
 struct MeshPlaces {
-  std::array<TrackPlace, N> stiffness, friction;
+  std::array<TrackPlace, N> stiffness, friction, error;
 };
 
 template <std::size_t N>
@@ -129,6 +132,8 @@ void for_each_constant(P& p, const F& f) {
     all(m.error_cos);
     all(m.error_sin);
     all(m.error_mean);
+    for (auto& harmonic : m.further_error_cos) all(harmonic);
+    for (auto& harmonic : m.further_error_sin) all(harmonic);
   };
   const auto each = [&](auto&... constants) { (f(constants), ...); };
   f(p.omega);
@@ -164,7 +169,10 @@ template <class T, std::size_t N>
     to.harmonics = from.harmonics;
     to.stiffness_cos.resize(from.stiffness_cos.size());
     to.stiffness_sin.resize(from.stiffness_sin.size());
+    to.further_error_cos.resize(from.further_error_cos.size());
+    to.further_error_sin.resize(from.further_error_sin.size());
     to.stiffness_curve = from.stiffness_curve;
+    to.error_curve = from.error_curve;
     to.friction = from.friction;
     to.phase_cycles = from.phase_cycles;
     to.in_phase = from.in_phase;

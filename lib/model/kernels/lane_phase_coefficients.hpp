@@ -22,7 +22,7 @@ inline constexpr std::size_t slopes_together = 8;
 
 /// Coefficients from the tables of one kind of mesh, for `count` slopes.
 template <std::size_t N, std::size_t W>
-void interpolate(const MeshParameters<Lanes<W>, N>& mesh, const LaneMeshPlaces<N, W>& places, std::size_t count,
+void interpolate(const Lanes<W>& omega, const MeshParameters<Lanes<W>, N>& mesh, const LaneMeshPlaces<N, W>& places, std::size_t count,
                  const Lanes<W>* s, PhaseCoefficients<Lanes<W>, N>* phase_coefficients,
                  MeshCoefficients<Lanes<W>, N> PhaseCoefficients<Lanes<W>, N>::*kind) {
   const auto each = [&](std::size_t planet, const auto& place, const auto& take) {
@@ -41,6 +41,10 @@ void interpolate(const MeshParameters<Lanes<W>, N>& mesh, const LaneMeshPlaces<N
         now.moment_driven.set(i, values[2]);
       });
   }
+  // Errors are each planet's own; planets that mesh in phase have one value of the table.
+  if (mesh.error_curve)
+    for (std::size_t i = 0; i < N; ++i)
+      each(i, places.error[i], [&](auto& now, const auto& values) { now.add_error(i, values, omega); });
 }
 
 /// @param s         phases of `count` slopes, all in the lanes' segments
@@ -57,9 +61,9 @@ void make_phase_coefficients(const LaneParameters<N, W>& p, std::size_t count, c
     for (std::size_t k = 0; k < together; ++k)
       new (phase_coefficients + first + k)
           PhaseCoefficients<Lanes<W>, N>(constants, HarmonicBasis<Lanes<W>>(angle[k], harmonics));
-    interpolate(constants.sun_planet, p.segment().sun_planet, together, s + first, phase_coefficients + first,
+    interpolate(constants.omega, constants.sun_planet, p.segment().sun_planet, together, s + first, phase_coefficients + first,
                 &PhaseCoefficients<Lanes<W>, N>::sun_planet);
-    interpolate(constants.ring_planet, p.segment().ring_planet, together, s + first, phase_coefficients + first,
+    interpolate(constants.omega, constants.ring_planet, p.segment().ring_planet, together, s + first, phase_coefficients + first,
                 &PhaseCoefficients<Lanes<W>, N>::ring_planet);
   }
 }

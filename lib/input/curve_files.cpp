@@ -1,0 +1,144 @@
+#include "input/curve_files.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/csv.hpp"
+#include "core/errors.hpp"
+#include "input/field_table.hpp"
+#include "input/pointers.hpp"
+#include "model/friction_track.hpp"
+
+namespace epicyclic::input {
+
+namespace {
+
+using nlohmann::json;
+
+/// The whole text as a number.
+std::optional<double> number_of(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  double value = 0.0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || end.ec != std::errc() || end.ptr != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+struct CurveRows {
+  std::vector<double> phase, value;
+};
+
+/// @throws InputError with what is wrong in the text
+CurveRows rows_of(const TextFile& file, const std::string& column) {
+  if (!file.problem.empty()) throw InputError(file.problem);
+  if (file.bytes.size() > json_bytes_max) throw InputError("is longer than 16 MiB");
+  std::string text = file.bytes;
+  std::erase(text, '\r');
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  const auto table = parse_csv(text);
+  if (!table) throw InputError("is no table: each line needs as many cells as the first one, which names the columns");
+  const auto place_of = [&](const std::string& name) {
+    const std::size_t place = table->index_of(name);
+    if (place == table->columns.size())
+      throw InputError("has no column '" + name + "', but " + listed(table->columns));
+    return place;
+  };
+  const std::size_t phase = place_of("phase");
+  const std::size_t value = place_of(column);
+  CurveRows rows;
+  for (std::size_t k = 0; k < table->rows.size(); ++k) {
+    const auto number = [&](std::size_t place) {
+      const auto read = number_of(table->rows[k][place]);
+      if (!read)
+        throw InputError("row " + std::to_string(k + 1) + ": '" + table->rows[k][place] + "' in the column '" +
+                         table->columns[place] + "' is no number");
+      return *read;
+    };
+    rows.phase.push_back(number(phase));
+    rows.value.push_back(number(value));
+  }
+  return rows;
+}
+
+/// The mean of a stiffness curve; nothing if its rows are wrong, which the rules of the stage report.
+std::optional<double> mean_of(const json& curve) {
+  try {
+    gear::StiffnessCurve c;
+    curve.at("phase").get_to(c.phase);
+    curve.at("stiffness_N_per_m").get_to(c.stiffness_N_per_m);
+    curve.at("breakpoints").get_to(c.breakpoints);
+    const std::string how = curve.value("interpolation", "monotone");
+    c.interpolation = how == "smooth"   ? Interpolation::smooth
+                      : how == "linear" ? Interpolation::linear
+                                        : Interpolation::monotone;
+    if (!c.phase.empty()) return model::mean_stiffness(c);
+  } catch (const InputError&) {
+  } catch (const json::exception&) {
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void read_curve_files(json& stage, const std::string& root,
+                      const std::function<const TextFile&(const std::string& pointer, const std::string& name)>& text_of,
+                      const std::function<void(const std::string& pointer, std::string message)>& refuse) {
+  for (const char* mesh_key : {"sun_planet_mesh", "ring_planet_mesh"})
+    for (const auto& [curve_key, values] :
+         {std::pair("stiffness_curve", "stiffness_N_per_m"), std::pair("error_curve", "error_um")}) {
+      const std::string place = std::string("/lumped/") + mesh_key;
+      json* mesh = find_at(stage, place);
+      json* curve = find_at(stage, place + "/" + curve_key);
+      if (curve == nullptr || !curve->is_object() || !curve->contains("file") || curve->contains("phase")) continue;
+      const std::string pointer = root + place + "/" + curve_key;
+      const auto is_text = [&](const char* key) {
+        const auto text = curve->find(key);
+        if (text == curve->end() || text->is_string()) return true;
+        refuse(pointer + "/" + key, "is " + described(*text) + ", must be a string");
+        return false;
+      };
+      if (!is_text("file") || !is_text("column")) continue;
+      const std::string name = curve->at("file").get<std::string>();
+      std::string origin = "table: " + name;
+      if (const auto origins = curve->find("origin"); origins != curve->end() && origins->is_object()) {
+        origin = origins->value("file", origin);
+        origins->erase("file");
+        origins->erase("column");
+      }
+      CurveRows rows;
+      try {
+        rows = rows_of(text_of(pointer + "/file", name), curve->value("column", values));
+      } catch (const InputError& error) {
+        refuse(pointer + "/file", "the file " + name + ": " + error.what());
+        continue;
+      }
+      curve->erase("file");
+      curve->erase("column");
+      const auto fill = [&](json& object, const char* key, json value, const std::string& from) {
+        object[key] = std::move(value);
+        if (!object["origin"].is_object()) object["origin"] = json::object();
+        object["origin"][key] = from;
+      };
+      if (!curve->contains("breakpoints")) {
+        std::vector<double> jumps;
+        for (std::size_t k = 1; k < rows.phase.size(); ++k)
+          if (rows.phase[k] == rows.phase[k - 1] && (jumps.empty() || jumps.back() != rows.phase[k]))
+            jumps.push_back(rows.phase[k]);
+        fill(*curve, "breakpoints", jumps, origin);
+      }
+      fill(*curve, "phase", rows.phase, origin);
+      fill(*curve, values, rows.value, origin);
+      if (std::string_view(curve_key) == "stiffness_curve" && !mesh->contains("stiffness_N_per_m"))
+        if (const auto mean = mean_of(*curve)) fill(*mesh, "stiffness_N_per_m", *mean, "table: mean of " + name);
+    }
+}
+
+}  // namespace epicyclic::input
