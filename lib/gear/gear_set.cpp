@@ -364,8 +364,11 @@ GearSet make_gear_set(const Stage& stage) {
     const std::optional<double> torque = design_torque_Nm(stage);
     if (!torque) throw DomainError("modified flanks need a torque");
     LoadedContacts contacts = loaded_contacts(set, *torque);
-    set.sun_planet.loaded = std::make_shared<LoadedContact>(std::move(contacts.sun_planet));
-    set.ring_planet.loaded = std::make_shared<LoadedContact>(std::move(contacts.ring_planet));
+    const Catalogue& c = set.catalogue;
+    if (c.sun.data.is_modified() || c.planet.data.is_modified())
+      set.sun_planet.loaded = std::make_shared<LoadedContact>(std::move(contacts.sun_planet));
+    if (c.planet.data.is_modified() || c.ring.data.is_modified())
+      set.ring_planet.loaded = std::make_shared<LoadedContact>(std::move(contacts.ring_planet));
   }
   const int harmonics = set.catalogue.stiffness.harmonics;
   set.sun_planet_stiffness = fourier_series(set.sun_planet, harmonics);
@@ -452,8 +455,8 @@ PeriodicRows periodic_rows(const std::vector<double>& breaks, double tolerance, 
     const double from = breaks[k];
     const double to = last ? 1.0 : breaks[k + 1];
     const auto phase = [&](double fraction) { return fraction == 1.0 ? to : from + (to - from) * fraction; };
-    const auto fitted = fit_rows<1>(
-        [&](double fraction) { return std::array{f(phase(fraction), 0.5 * (from + to))}; }, tolerance);
+    const auto fitted =
+        fit_rows<1>([&](double fraction) { return std::array{f(phase(fraction), 0.5 * (from + to))}; }, tolerance);
     for (std::size_t i = 0; i < fitted.grid.count + (last || !jumps ? 0 : 1); ++i) {
       rows.phase.push_back(phase(fitted.grid.fraction(i)));
       rows.value.push_back(fitted.rows[i][0]);
@@ -475,9 +478,8 @@ StiffnessCurve stiffness_curve(const MeshedPair& mesh, double tolerance) {
   curve.interpolation = Interpolation::smooth;
   const double mean = fourier_series(mesh, 0).mean;
   const double reached = mesh.loaded ? reachable(*mesh.loaded, tolerance) : tolerance;
-  PeriodicRows rows =
-      periodic_rows(curve.breakpoints, reached * mean, true,
-                    [&](double phase, double inside) { return mesh.stiffness(phase, inside); });
+  PeriodicRows rows = periodic_rows(curve.breakpoints, reached * mean, true,
+                                    [&](double phase, double inside) { return mesh.stiffness(phase, inside); });
   curve.phase = std::move(rows.phase);
   curve.stiffness_N_per_m = std::move(rows.value);
   curve.error = rows.error / mean;

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double two_pi = 2.0 * std::numbers::pi;
-// Kinks that are nearer are one.
-constexpr double phase_resolution = 1e-9;
+// Kinks that are nearer are one: rows between them would be too near to each other.
+constexpr double phase_resolution = 1e-7;
 
 /// inv alpha of the involute at a radius, and its length of roll; the latter infinite inside the base circle.
 struct InvolutePoint {
@@ -176,8 +176,8 @@ std::vector<LoadedContact::State> LoadedContact::pairs(double phase) const {
 }
 
 double LoadedContact::deflection_um(const std::vector<State>& pairs, double force_N) const {
-  const auto nearest = std::min_element(pairs.begin(), pairs.end(),
-                                        [](const State& a, const State& b) { return a.gap_um < b.gap_um; });
+  const auto nearest =
+      std::min_element(pairs.begin(), pairs.end(), [](const State& a, const State& b) { return a.gap_um < b.gap_um; });
   if (force_N == 0.0) return nearest->gap_um;
   // The force is a convex function of delta: Newton's method from above falls to the root. Without crowning the force
   // is piecewise linear, and the steps are finite in number.
@@ -238,8 +238,7 @@ std::vector<double> LoadedContact::breakpoints(double force_N) const {
   });
   const auto sort = [&phases] {
     std::sort(phases.begin(), phases.end());
-    phases.erase(std::unique(phases.begin(), phases.end(),
-                             [](double a, double b) { return b - a < phase_resolution; }),
+    phases.erase(std::unique(phases.begin(), phases.end(), [](double a, double b) { return b - a < phase_resolution; }),
                  phases.end());
     while (phases.size() > 1 && phases.back() > 1.0 - phase_resolution) phases.pop_back();
   };
@@ -274,8 +273,8 @@ std::vector<double> LoadedContact::breakpoints(double force_N) const {
       const Touch behind = touch_at(high, before.nearest);
       for (std::size_t j = 0; j < before.bears.size(); ++j)
         if (before.bears[j] != behind.bears[j] && force_N > 0.0)
-          phases.push_back(place_of_change(
-              [&](double phase) { return touch_at(phase, 0).bears[j] == before.bears[j]; }, low, high));
+          phases.push_back(
+              place_of_change([&](double phase) { return touch_at(phase, 0).bears[j] == before.bears[j]; }, low, high));
       if (before.nearest != behind.nearest)
         phases.push_back(place_of_change(
             [&](double phase) {
@@ -296,10 +295,10 @@ namespace {
 /// @param at  value [um] at a phase, within the part of another phase
 template <class F>
 TransmissionError over_period(const std::vector<double>& breaks, const F& at) {
-  using Waves = Eigen::Array<double, 7, 1>;  // 1, cosines and sines
+  using Harmonics = Eigen::Array<double, 7, 1>;  // 1, cosines and sines
   double least = infinite;
   double greatest = -infinite;
-  Waves sum = Waves::Zero();
+  Harmonics sum = Harmonics::Zero();
   constexpr int panels = 2;
   for (std::size_t k = 0; k < breaks.size(); ++k) {
     const double to = k + 1 < breaks.size() ? breaks[k + 1] : 1.0;
@@ -311,9 +310,9 @@ TransmissionError over_period(const std::vector<double>& breaks, const F& at) {
     };
     for (const double end : {breaks[k], to}) (void)value_at(end);
     sum += gauss_legendre_16().integrate(
-        [&](double phase) -> Waves {
+        [&](double phase) -> Harmonics {
           const double value = value_at(phase);
-          Waves f;
+          Harmonics f;
           f[0] = value;
           for (int h = 1; h <= 3; ++h) {
             f[2 * h - 1] = 2.0 * value * std::cos(two_pi * h * phase);

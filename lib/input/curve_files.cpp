@@ -47,8 +47,7 @@ CurveRows rows_of(const TextFile& file, const std::string& column) {
   if (!table) throw InputError("is no table: each line needs as many cells as the first one, which names the columns");
   const auto place_of = [&](const std::string& name) {
     const std::size_t place = table->index_of(name);
-    if (place == table->columns.size())
-      throw InputError("has no column '" + name + "', but " + listed(table->columns));
+    if (place == table->columns.size()) throw InputError("has no column '" + name + "', but " + listed(table->columns));
     return place;
   };
   const std::size_t phase = place_of("phase");
@@ -88,9 +87,10 @@ std::optional<double> mean_of(const json& curve) {
 
 }  // namespace
 
-void read_curve_files(json& stage, const std::string& root,
-                      const std::function<const TextFile&(const std::string& pointer, const std::string& name)>& text_of,
-                      const std::function<void(const std::string& pointer, std::string message)>& refuse) {
+void read_curve_files(
+    json& stage, const std::string& root,
+    const std::function<const TextFile&(const std::string& pointer, const std::string& name)>& text_of,
+    const std::function<void(const std::string& pointer, std::string message)>& refuse) {
   for (const char* mesh_key : {"sun_planet_mesh", "ring_planet_mesh"})
     for (const auto& [curve_key, values] :
          {std::pair("stiffness_curve", "stiffness_N_per_m"), std::pair("error_curve", "error_um")}) {
@@ -99,13 +99,8 @@ void read_curve_files(json& stage, const std::string& root,
       json* curve = find_at(stage, place + "/" + curve_key);
       if (curve == nullptr || !curve->is_object() || !curve->contains("file") || curve->contains("phase")) continue;
       const std::string pointer = root + place + "/" + curve_key;
-      const auto is_text = [&](const char* key) {
-        const auto text = curve->find(key);
-        if (text == curve->end() || text->is_string()) return true;
-        refuse(pointer + "/" + key, "is " + described(*text) + ", must be a string");
-        return false;
-      };
-      if (!is_text("file") || !is_text("column")) continue;
+      const auto is_text = [&](const char* key) { return !curve->contains(key) || curve->at(key).is_string(); };
+      if (!is_text("file") || !is_text("column")) continue;  // the tables refuse it
       const std::string name = curve->at("file").get<std::string>();
       std::string origin = "table: " + name;
       if (const auto origins = curve->find("origin"); origins != curve->end() && origins->is_object()) {
@@ -118,6 +113,8 @@ void read_curve_files(json& stage, const std::string& root,
         rows = rows_of(text_of(pointer + "/file", name), curve->value("column", values));
       } catch (const InputError& error) {
         refuse(pointer + "/file", "the file " + name + ": " + error.what());
+        mesh->erase(curve_key);
+        if (!mesh->contains("stiffness_N_per_m")) (*mesh)["stiffness_N_per_m"] = 1.0;  // not missing, but unknown
         continue;
       }
       curve->erase("file");

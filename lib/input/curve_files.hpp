@@ -22,8 +22,9 @@ namespace epicyclic::input {
 /// @param root     pointer of the stage
 /// @param text_of  the file of that name, which stands at a pointer
 /// @param refuse   takes errors with their pointers
-void read_curve_files(nlohmann::json& stage, const std::string& root,
-                      const std::function<const TextFile&(const std::string& pointer, const std::string& name)>& text_of,
-                      const std::function<void(const std::string& pointer, std::string message)>& refuse);
+void read_curve_files(
+    nlohmann::json& stage, const std::string& root,
+    const std::function<const TextFile&(const std::string& pointer, const std::string& name)>& text_of,
+    const std::function<void(const std::string& pointer, std::string message)>& refuse);
 
 }  // namespace epicyclic::input

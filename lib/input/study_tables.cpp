@@ -321,13 +321,17 @@ void add_file(Table<T>& table, const std::string& column) {
     Field<T> field;
     field.key = key;
     field.description = std::move(description);
-    field.read = [](const json&, const std::string&, T&, ReadContext&) {};
+    field.read = [](const json& value, const std::string& pointer, T&, ReadContext& context) {
+      if (!value.is_string())
+        context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be a string");
+    };
     field.write = [](const T&) { return json(); };
-    field.schema = [] { return ordered_json{{"type", "string"}, {"minLength", 1}}; };
+    field.schema = [] { return ordered_json{{"type", "string"}}; };
     table.custom(std::move(field));
   };
-  text("file", "CSV file with the columns `phase` and `" + column + "`, in place of the rows, relative to the file that "
-               "names it.");
+  text("file", "CSV file with the columns `phase` and `" + column +
+                   "`, in place of the rows, relative to the file that "
+                   "names it.");
   text("column", "Column of the file in place of `" + column + "`.");
   table.rule(KeyRule::Kind::exactly_one, {"file", "phase"});
   table.rule(KeyRule::Kind::together, {"phase", column});
@@ -337,8 +341,8 @@ void add_file(Table<T>& table, const std::string& column) {
 const Table<gear::ErrorCurve>& error_table() {
   static const auto table = [] {
     using gear::ErrorCurve;
-    Table<ErrorCurve> t("error_curve",
-                        "Transmission error over the mesh's own phase, beside the harmonics, the same for all planets.");
+    Table<ErrorCurve> t(
+        "error_curve", "Transmission error over the mesh's own phase, beside the harmonics, the same for all planets.");
     add_file(t, "error_um");
     t.numbers("phase", &ErrorCurve::phase, from_below(0, 1), 2, 100000,
               "Phase of the rows, 0 where a pair enters, rising [-].");
@@ -397,7 +401,8 @@ const Table<Mesh>& mesh_table() {
     t.numbers("error_cos_um", &Mesh::error_cos_um, signed_error, 0, gear::harmonics_max,
               "Cosine coefficients of the harmonics 1, 2, ... of the transmission error on the mesh's own phase, the "
               "same for all planets and beside error_amplitude_um [um].");
-    t.numbers("error_sin_um", &Mesh::error_sin_um, signed_error, 0, gear::harmonics_max, "Sine coefficients of the same [um].");
+    t.numbers("error_sin_um", &Mesh::error_sin_um, signed_error, 0, gear::harmonics_max,
+              "Sine coefficients of the same [um].");
     t.object("error_curve", present(&Mesh::error_curve), error_table());
     t.number_or_numbers("error_mean_um", &Mesh::error_mean_um, signed_error, gear::planets_max,
                         "Constant part of the transmission error, of tooth thickness or spacing [um]: one number, or "

@@ -42,11 +42,11 @@ PeriodicTrack<1> stiffness_track(const gear::StiffnessCurve& curve, double unit)
   return {rows, curve.breakpoints, 0.0, curve.interpolation, {}, rows_per_feature_of(curve)};
 }
 
-PeriodicTrack<2> error_track(const gear::ErrorCurve& curve, double unit_um) {
+PeriodicTrack<3> error_track(const gear::ErrorCurve& curve, double unit_um) {
   constexpr double phase_per_radian = 0.5 * std::numbers::inv_pi;
-  std::vector<TrackRow<2>> rows;
+  std::vector<TrackRow<3>> rows;
   for (std::size_t k = 0; k < curve.phase.size(); ++k)
-    rows.push_back({curve.phase[k], {curve.error_um[k] / unit_um, 0.0}});
+    rows.push_back({curve.phase[k], {curve.error_um[k] / unit_um, 0.0, 0.0}});
   return with_slope({rows, curve.breakpoints, 0.0, curve.interpolation, {}, rows_per_feature_of(curve)},
                     phase_per_radian);
 }

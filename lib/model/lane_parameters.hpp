@@ -73,12 +73,15 @@ struct LanePlace {
       return cubics_at<W, K>(own, found.t);
     }
     std::array<Row<double, K>, W> rows;
-    for (std::size_t lane = 0; lane < W; ++lane) {
-      const auto number = static_cast<std::size_t>(found.number[lane]);
-      rows[lane] = track_segments[lane].regular ? cubics_at(cubics[lane][number], found.t[lane])
-                                                : track[lane]->at(track_segments[lane], found.x[lane], number);
-    }
+    for (std::size_t lane = 0; lane < W; ++lane) rows[lane] = in_lane(lane, found);
     return transposed<W, K>(rows);
+  }
+
+  /// The same of one lane.
+  [[nodiscard]] Row<double, K> in_lane(std::size_t lane, const LaneInterval<W>& found) const {
+    const auto number = static_cast<std::size_t>(found.number[lane]);
+    return track_segments[lane].regular ? cubics_at(cubics[lane][number], found.t[lane])
+                                        : track[lane]->at(track_segments[lane], found.x[lane], number);
   }
 };
 
@@ -87,7 +90,7 @@ template <std::size_t N, std::size_t W>
 struct LaneMeshPlaces {
   std::array<LanePlace<1, W>, N> stiffness;
   std::array<LanePlace<3, W>, N> friction;
-  std::array<LanePlace<2, W>, N> error;
+  std::array<LanePlace<3, W>, N> error;
 
   void set(std::size_t lane, const MeshParameters<double, N>& mesh, const MeshPlaces<N>& places) {
     for (std::size_t i = 0; i < N; ++i) {

@@ -78,8 +78,8 @@ void fill_further_errors(MeshParameters<double, N>& m, const gear::Mesh& mesh, c
                          bool backward) {
   if (mesh.error_curve) {
     const gear::ErrorCurve curve = halve ? halved(*mesh.error_curve) : *mesh.error_curve;
-    m.error_curve =
-        std::make_shared<PeriodicTrack<2>>(error_track(backward ? gear::reversed(curve) : curve, scales.displacement_um(1.0)));
+    m.error_curve = std::make_shared<PeriodicTrack<3>>(
+        error_track(backward ? gear::reversed(curve) : curve, scales.displacement_um(1.0)));
   }
   const std::vector<double> none;
   const std::vector<double>& a = mesh.error_cos_um ? *mesh.error_cos_um : none;
@@ -93,9 +93,8 @@ void fill_further_errors(MeshParameters<double, N>& m, const gear::Mesh& mesh, c
   };
   for (std::size_t h = 0; h < harmonics; ++h)
     for (std::size_t i = 0; i < N; ++i)
-      add_harmonic(h == 0 ? m.error_cos : m.further_error_cos[h - 1],
-                   h == 0 ? m.error_sin : m.further_error_sin[h - 1], i, amplitude(a, h),
-                   backward ? -amplitude(b, h) : amplitude(b, h),
+      add_harmonic(h == 0 ? m.error_cos : m.further_error_cos[h - 1], h == 0 ? m.error_sin : m.further_error_sin[h - 1],
+                   i, amplitude(a, h), backward ? -amplitude(b, h) : amplitude(b, h),
                    static_cast<double>(h + 1) * two_pi * m.phase_cycles[i]);
 }
 

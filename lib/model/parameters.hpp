@@ -36,15 +36,15 @@ struct MeshParameters {
   T damping;                   ///< c
   T stiffness;                 ///< k_0
   std::size_t harmonics = 0;
-  std::vector<Row<T, N>> stiffness_cos, stiffness_sin;      ///< C_hi, S_hi; [harmonics][N]
-  Row<T, N> error_cos{}, error_sin{};                       ///< a_1i, b_1i
+  std::vector<Row<T, N>> stiffness_cos, stiffness_sin;          ///< C_hi, S_hi; [harmonics][N]
+  Row<T, N> error_cos{}, error_sin{};                           ///< a_1i, b_1i
   std::vector<Row<T, N>> further_error_cos, further_error_sin;  ///< a_hi, b_hi, h = 2, 3, ...; as many of both
-  Row<T, N> error_mean{};                                   ///< e_0i [M-e]
-  std::shared_ptr<const PeriodicTrack<1>> stiffness_curve;  ///< in place of k_0 and harmonics; null without
-  std::shared_ptr<const PeriodicTrack<2>> error_curve;      ///< e and de/ds [M-e-curve]; null without
-  std::shared_ptr<const FrictionTrack> friction;            ///< null without friction
-  Row<double, N> phase_cycles{};                            ///< mesh phase of planet i over 2 pi, at s = 0
-  bool in_phase = false;                                    ///< the same for all planets, to rounding
+  Row<T, N> error_mean{};                                       ///< e_0i [M-e]
+  std::shared_ptr<const PeriodicTrack<1>> stiffness_curve;      ///< in place of k_0 and harmonics; null without
+  std::shared_ptr<const PeriodicTrack<3>> error_curve;          ///< e and de/ds [M-e-curve]; null without
+  std::shared_ptr<const FrictionTrack> friction;                ///< null without friction
+  Row<double, N> phase_cycles{};                                ///< mesh phase of planet i over 2 pi, at s = 0
+  bool in_phase = false;                                        ///< the same for all planets, to rounding
 };
 
 /// Places of one kind of mesh in its tables while s is between two neighbouring breakpoints.

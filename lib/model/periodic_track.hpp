@@ -60,10 +60,10 @@ struct TrackRow {
 template <std::size_t K>
 class PeriodicTrack;
 
-/// A track whose second function is, in the place of its rows, the derivative of the first one by the phase, of a table
-/// without jumps: exactly that of the cubics.
+/// A track whose second function is, in the place of its rows, the derivative of the first one with respect to the
+/// phase, of a table without jumps: exactly that of the cubics. Three functions fill the registers that two would.
 /// @param unit  that the derivative is multiplied by
-[[nodiscard]] PeriodicTrack<2> with_slope(PeriodicTrack<2> track, double unit = 1.0);
+[[nodiscard]] PeriodicTrack<3> with_slope(PeriodicTrack<3> track, double unit = 1.0);
 
 template <std::size_t K>
 class PeriodicTrack {
@@ -134,7 +134,7 @@ class PeriodicTrack {
   [[nodiscard]] const Cubics<K>* cubics(const TrackSegment& segment) const { return cubics_.data() + segment.lo; }
 
  private:
-  friend PeriodicTrack<2> with_slope(PeriodicTrack<2> track, double unit);
+  friend PeriodicTrack<3> with_slope(PeriodicTrack<3> track, double unit);
 
   template <class V>
   [[nodiscard]] std::size_t walked(const TrackSegment& segment, V x, std::size_t k) const {
@@ -157,7 +157,6 @@ class PeriodicTrack {
 };
 
 extern template class PeriodicTrack<1>;
-extern template class PeriodicTrack<2>;
 extern template class PeriodicTrack<3>;
 
 }  // namespace epicyclic::model

@@ -211,8 +211,8 @@ GearFigure friction_ratio_figure(const fs::path& folder, const gear::Stage& stag
 // Static transmission error
 
 std::string titled_error(const gear::Stage& stage, const TransmissionErrorTable& table) {
-  return titled(stage, fmt::format("static transmission error, {} mesh",
-                                   table.mesh == "sp" ? "sun-planet" : "ring-planet"));
+  return titled(stage,
+                fmt::format("static transmission error, {} mesh", table.mesh == "sp" ? "sun-planet" : "ring-planet"));
 }
 
 GearFigure error_over_torque(const fs::path& folder, const TransmissionErrorTable& table, const gear::Stage& stage) {
@@ -245,12 +245,11 @@ GearFigure error_over_phase(const fs::path& folder, const TransmissionErrorTable
   figures::Sketch sketch("transmission_error_phase_" + table.mesh);
   constexpr int samples = 400;
   figures::FigureRange y;
-  const std::array<std::pair<double, std::string>, 5> curves = {
-      {{0.0, figures::dashed(dark_grey, 1.5, "(10,7)")},
-       {0.5, figures::solid(light_blue)},
-       {1.0, figures::solid(blue, 3)},
-       {1.5, figures::solid(ochre)},
-       {2.0, figures::solid(red)}}};
+  const std::array<std::pair<double, std::string>, 5> curves = {{{0.0, figures::dashed(dark_grey, 1.5, "(10,7)")},
+                                                                 {0.5, figures::solid(light_blue)},
+                                                                 {1.0, figures::solid(blue, 3)},
+                                                                 {1.5, figures::solid(ochre)},
+                                                                 {2.0, figures::solid(red)}}};
   for (const auto& [share, style] : curves) {
     Curve curve;
     for (int i = 0; i <= periods_shown * samples; ++i) {

@@ -58,15 +58,17 @@ std::string transmission_error_csv(const std::vector<TransmissionErrorTable>& ta
 std::string transmission_error_section(const std::vector<TransmissionErrorTable>& tables, bool modified) {
   std::string text = fmt::format(
       "\n## Static transmission error\n\nDisplacement along the line of action by the loads of the tooth pairs "
-      "[G-load], over a mesh period, at the torque of {:.6g} N m on the sun. Table: `static_transmission_error.csv`.\n\n"
+      "[G-load], over a mesh period, at the torque of {:.6g} N m on the sun. Table: "
+      "`static_transmission_error.csv`.\n\n"
       "| mesh | mean um | peak to peak um | harmonics 1, 2, 3 um | contact ratio | least peak to peak um | at N m |\n"
       "|---|---|---|---|---|---|---|\n",
       tables.front().design_torque_Nm);
   for (const TransmissionErrorTable& table : tables) {
     const gear::TransmissionError& e = table.at_design_torque().error;
-    text += fmt::format("| {} | {:.4g} | {:.4g} | {:.4g}, {:.4g}, {:.4g} | {:.4f} | {:.4g} | {:.6g} |\n",
-                        name_of(table), e.mean_um, e.peak_to_peak_um, e.harmonic_um[0], e.harmonic_um[1],
-                        e.harmonic_um[2], e.contact_ratio, table.least().error.peak_to_peak_um, table.least().torque_Nm);
+    text +=
+        fmt::format("| {} | {:.4g} | {:.4g} | {:.4g}, {:.4g}, {:.4g} | {:.4f} | {:.4g} | {:.6g} |\n", name_of(table),
+                    e.mean_um, e.peak_to_peak_um, e.harmonic_um[0], e.harmonic_um[1], e.harmonic_um[2], e.contact_ratio,
+                    table.least().error.peak_to_peak_um, table.least().torque_Nm);
   }
   text += modified ? "\nThe model has this error at this torque, and the error without load at none. At other torques "
                      "it has e + F/k, the dashed curve.\n"

@@ -51,7 +51,8 @@ double angle_to_flank(const Tooth& tooth, const Point& point) {
   for (int k = 0; k < 200; ++k) {
     const double t = 0.5 * (low + high);
     (std::hypot(std::cos(t) + t * std::sin(t), std::sin(t) - t * std::cos(t)) * tooth.base_radius_mm < radius ? low
-                                                                                                             : high) = t;
+                                                                                                              : high) =
+        t;
   }
   const double t = 0.5 * (low + high);
   return std::atan2(std::sin(t) - t * std::cos(t), std::cos(t) + t * std::sin(t));
@@ -92,8 +93,7 @@ TEST(LoadedContact, GapsBeyondThePathAreThoseOfTheInvolutes) {
         const Point from_1 = turned(p.driving.tip_radius_mm, at);
         const Point from_2{from_1.x - axis_2.x, from_1.y - axis_2.y};
         const double flank = foot_2(l) - angle_to_flank(p.driven, from_2);
-        const double gap =
-            sign * std::remainder(flank - std::atan2(from_2.x, from_2.y), 2.0 * std::numbers::pi);
+        const double gap = sign * std::remainder(flank - std::atan2(from_2.x, from_2.y), 2.0 * std::numbers::pi);
         EXPECT_NEAR(contact.gap_um(p.contact_ratio() + u), 1e3 * gap * p.driven.base_radius_mm, 1e-6) << u;
         EXPECT_GT(contact.gap_um(p.contact_ratio() + u), 0.0);
       }
