@@ -75,6 +75,8 @@ struct StiffnessOptions {
   int harmonics = 2;                                     ///< Eq. (4) has two; 0: the mean alone
   double sun_planet_factor = 1, ring_planet_factor = 1;  ///< on the computed stiffness, for what its model leaves open
   double table_tolerance = 1e-9;                         ///< of the curve between its rows, relative to the mean [-]
+  /// Torque on the sun for the contact of modified flanks; that of the load if it is not given [N m].
+  std::optional<double> design_torque_Nm{};
 
   /// @throws InputError for less than 0 harmonics, or a factor or tolerance that is not positive
   void validate() const;
@@ -104,6 +106,11 @@ struct Catalogue {
   StiffnessOptions stiffness;
   std::optional<Lubrication> lubrication;
   ErrorAmplitude error_amplitude = ErrorAmplitude::profile_form;
+
+  /// Has any flank a relief or a crowning?
+  [[nodiscard]] bool is_modified() const {
+    return sun.data.is_modified() || planet.data.is_modified() || ring.data.is_modified();
+  }
 };
 
 }  // namespace epicyclic::gear

@@ -57,7 +57,18 @@ class LoadShare {
 /// Positions of rows where the share jumps or its slope changes.
 std::vector<double> kinks_of_share(const EhlFriction& e) {
   std::vector<double> kinks;
-  if (e.share_interpolation != Interpolation::linear) return kinks;
+  if (e.share_interpolation != Interpolation::linear) {
+    // Kinks stand twice, besides those where pairs enter and leave, which are breakpoints of the path.
+    const auto of_path = [&](double position) {
+      constexpr double resolution = 1e-9;
+      const auto whole = [](double x) { return std::abs(x - std::round(x)) < resolution; };
+      return whole(position) || whole(e.contact_ratio - position);
+    };
+    for (std::size_t k = 1; k < e.share_position.size(); ++k)
+      if (e.share_position[k] == e.share_position[k - 1] && !of_path(e.share_position[k]))
+        kinks.push_back(e.share_position[k]);
+    return kinks;
+  }
   constexpr double rounding = 1e-12;
   const auto& x = e.share_position;
   const auto& y = e.share;

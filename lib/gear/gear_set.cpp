@@ -35,6 +35,12 @@ const std::string sun_pointer = "/catalogue/sun";
 const std::string planet_pointer = "/catalogue/planet";
 const std::string ring_pointer = "/catalogue/ring";
 
+/// Beside the phase where a crowned pair touches, more rows are of little use.
+double reachable(const LoadedContact& contact, double tolerance) {
+  constexpr double of_crowned = 1e-5;
+  return contact.is_crowned() ? std::max(tolerance, of_crowned) : tolerance;
+}
+
 GearData of_planet_base_pitch(GearData ring, const GearData& planet) {
   ring.module_mm =
       planet.module_mm * std::cos(planet.pressure_angle_deg * radian) / std::cos(ring.pressure_angle_deg * radian);
@@ -266,6 +272,25 @@ bool meshes_at_its_distance(Problems& out, const Stage& stage) {
   });
 }
 
+/// Reliefs within their flanks, and a load.
+void check_modified_flanks(Problems& out, const Stage& stage, const GearSet& set) {
+  if (!design_torque_Nm(stage))
+    out.add("/catalogue/mesh_stiffness/design_torque_Nm",
+            "is missing; relief and crowning need the torque on the sun for which their contact is computed, unless "
+            "the load is a torque");
+  constexpr double any_force_N = 1.0;
+  const GearData none{};
+  const auto check = [&](const std::string& pointer, const MeshedPair& mesh, const GearData& first,
+                         const GearData& second) {
+    tried(out, pointer, [&] { (void)LoadedContact(mesh, first, second, any_force_N); });
+  };
+  const Catalogue& c = set.catalogue;
+  check(sun_pointer, set.sun_planet, c.sun.data, none);
+  check(planet_pointer, set.sun_planet, none, c.planet.data);
+  check(planet_pointer, set.ring_planet, c.planet.data, none);
+  check(ring_pointer, set.ring_planet, none, c.ring.data);
+}
+
 /// Planets beside each other, bores and the rim.
 /// @param evenly  no angles are given
 void check_room(Problems& out, const GearSet& set, bool evenly) {
@@ -329,8 +354,35 @@ void StiffnessOptions::validate() const {
   require(table_tolerance > 0.0, "table_tolerance", table_tolerance, "> 0");
 }
 
+std::optional<double> design_torque_Nm(const Stage& stage) {
+  const std::optional<double>& own = stage.catalogue->stiffness.design_torque_Nm;
+  if (own || !stage.load.torque_Nm) return own;
+  return std::abs(*stage.load.torque_Nm);  // teeth are symmetric
+}
+
+LoadedContacts loaded_contacts(const GearSet& set, double torque_Nm) {
+  const double planets = static_cast<double>(set.angles_deg.size());
+  const double force_N = torque_Nm / (planets * set.sun.base_radius_mm * 1e-3);
+  const auto contact = [&](MeshedPair mesh, const GearData& first, const GearData& second) {
+    mesh.loaded = nullptr;
+    return LoadedContact(mesh, first, second, force_N);
+  };
+  const Catalogue& c = set.catalogue;
+  return {contact(set.sun_planet, c.sun.data, c.planet.data), contact(set.ring_planet, c.planet.data, c.ring.data)};
+}
+
 GearSet make_gear_set(const Stage& stage) {
   GearSet set = geometry_of(stage);
+  if (set.catalogue.is_modified()) {
+    const std::optional<double> torque = design_torque_Nm(stage);
+    if (!torque) throw DomainError("modified flanks need a torque");
+    LoadedContacts contacts = loaded_contacts(set, *torque);
+    const Catalogue& c = set.catalogue;
+    if (c.sun.data.is_modified() || c.planet.data.is_modified())
+      set.sun_planet.loaded = std::make_shared<LoadedContact>(std::move(contacts.sun_planet));
+    if (c.planet.data.is_modified() || c.ring.data.is_modified())
+      set.ring_planet.loaded = std::make_shared<LoadedContact>(std::move(contacts.ring_planet));
+  }
   const int harmonics = set.catalogue.stiffness.harmonics;
   set.sun_planet_stiffness = fourier_series(set.sun_planet, harmonics);
   set.ring_planet_stiffness = fourier_series(set.ring_planet, harmonics);
@@ -364,12 +416,13 @@ std::vector<std::string> catalogue_problems(const Stage& stage) {
   check_accuracy(out, set);
   lines = out.take();
   if (!lines.empty()) return lines;
-  tried(out, "/catalogue/mesh_stiffness", [&] {
+  const bool stiff = tried(out, "/catalogue/mesh_stiffness", [&] {
     // Radii of contact rise or fall along the path: flanks that hold its ends hold all of it.
     for (const MeshedPair* mesh : {&set.sun_planet, &set.ring_planet})
       for (const double position : {0.0, mesh->contact_ratio()}) (void)mesh->pair_stiffness(position);
     (void)bodies(set);
   });
+  if (stiff && c.is_modified()) check_modified_flanks(out, stage, set);
   return out.take();
 }
 
@@ -397,31 +450,72 @@ double planet_gap_mm(const GearSet& set) {
   return least;
 }
 
-StiffnessCurve stiffness_curve(const MeshedPair& mesh, double tolerance) {
-  StiffnessCurve curve;
-  curve.breakpoints = mesh.breakpoints();
-  curve.interpolation = Interpolation::smooth;
-  curve.error = 0.0;
-  const double mean = fourier_series(mesh, 0).mean;
-  const auto& breaks = curve.breakpoints;
+namespace {
+
+/// Rows of a periodic function that is smooth between breakpoints, the first of which is 0.
+struct PeriodicRows {
+  std::vector<double> phase, value;
+  double error = 0;
+};
+
+/// @param f      value at a phase, within the part of another phase
+/// @param jumps  both sides of each breakpoint; else one row there
+template <class F>
+PeriodicRows periodic_rows(const std::vector<double>& breaks, double tolerance, bool jumps, const F& f) {
+  PeriodicRows rows;
   for (std::size_t k = 0; k < breaks.size(); ++k) {
     const bool last = k + 1 == breaks.size();
     const double from = breaks[k];
     const double to = last ? 1.0 : breaks[k + 1];
     const auto phase = [&](double fraction) { return fraction == 1.0 ? to : from + (to - from) * fraction; };
     const auto fitted =
-        fit_rows<1>([&](double fraction) { return std::array{mesh.stiffness(phase(fraction), 0.5 * (from + to))}; },
-                    tolerance * mean);
-    for (std::size_t i = 0; i < fitted.grid.count + (last ? 0 : 1); ++i) {
-      curve.phase.push_back(phase(fitted.grid.fraction(i)));
-      curve.stiffness_N_per_m.push_back(fitted.rows[i][0]);
+        fit_rows<1>([&](double fraction) { return std::array{f(phase(fraction), 0.5 * (from + to))}; }, tolerance);
+    for (std::size_t i = 0; i < fitted.grid.count + (last || !jumps ? 0 : 1); ++i) {
+      rows.phase.push_back(phase(fitted.grid.fraction(i)));
+      rows.value.push_back(fitted.rows[i][0]);
     }
-    curve.error = std::max(*curve.error, fitted.error / mean);
-    if (!last) continue;
+    rows.error = std::max(rows.error, fitted.error);
+    if (!last || !jumps) continue;
     // The left side of the first breakpoint, phase 0, is the end of the period.
-    curve.phase.insert(curve.phase.begin(), 0.0);
-    curve.stiffness_N_per_m.insert(curve.stiffness_N_per_m.begin(), fitted.rows.back()[0]);
+    rows.phase.insert(rows.phase.begin(), 0.0);
+    rows.value.insert(rows.value.begin(), fitted.rows.back()[0]);
   }
+  return rows;
+}
+
+}  // namespace
+
+StiffnessCurve stiffness_curve(const MeshedPair& mesh, double tolerance) {
+  StiffnessCurve curve;
+  curve.breakpoints = mesh.breakpoints();
+  curve.interpolation = Interpolation::smooth;
+  const double mean = fourier_series(mesh, 0).mean;
+  const double reached = mesh.loaded ? reachable(*mesh.loaded, tolerance) : tolerance;
+  PeriodicRows rows = periodic_rows(curve.breakpoints, reached * mean, true,
+                                    [&](double phase, double inside) { return mesh.stiffness(phase, inside); });
+  curve.phase = std::move(rows.phase);
+  curve.stiffness_N_per_m = std::move(rows.value);
+  curve.error = rows.error / mean;
+  return curve;
+}
+
+ErrorCurve error_curve(const LoadedContact& contact, double tolerance) {
+  ErrorCurve curve;
+  curve.breakpoints = contact.breakpoints();
+  curve.interpolation = Interpolation::smooth;
+  double largest = 0.0;
+  constexpr int samples = 100;
+  for (int k = 0; k < samples; ++k)
+    largest = std::max(largest, contact.no_load_error_um(static_cast<double>(k) / samples));
+  for (const double phase : curve.breakpoints) largest = std::max(largest, contact.no_load_error_um(phase));
+  // Nothing is to be resolved of a flank without relief.
+  constexpr double least_um = 1e-6;
+  largest = std::max(largest, least_um);
+  PeriodicRows rows = periodic_rows(curve.breakpoints, tolerance * largest, false,
+                                    [&](double phase, double) { return contact.no_load_error_um(phase); });
+  curve.phase = std::move(rows.phase);
+  curve.error_um = std::move(rows.value);
+  curve.error = rows.error / largest;
   return curve;
 }
 
@@ -448,7 +542,7 @@ EhlFriction ehl_of(const MeshedPair& mesh, const Lubrication& lubrication) {
     const auto position = [&](double fraction) { return fraction == 1.0 ? to : from + (to - from) * fraction; };
     const auto fitted =
         fit_rows<1>([&](double fraction) { return std::array{mesh.load_share(position(fraction), 0.5 * (from + to))}; },
-                    lubrication.table_tolerance);
+                    mesh.loaded ? reachable(*mesh.loaded, lubrication.table_tolerance) : lubrication.table_tolerance);
     for (std::size_t i = 0; i <= fitted.grid.count; ++i) {
       e.share_position.push_back(position(fitted.grid.fraction(i)));
       e.share.push_back(fitted.rows[i][0]);

@@ -18,6 +18,7 @@
 
 #include "gear/accuracy.hpp"
 #include "gear/catalogue.hpp"
+#include "gear/loaded_contact.hpp"
 #include "gear/mesh_stiffness.hpp"
 #include "gear/stage.hpp"
 
@@ -40,6 +41,9 @@ struct GearSet {
 /// @throws DomainError if the data make no gear set: call catalogue_problems() first; InputError if options of the
 /// stiffness are out of range
 [[nodiscard]] GearSet make_gear_set(const Stage& stage);
+
+/// Torque on the sun for the contact of modified flanks [N m]; nothing if neither it nor a torque as load is given.
+[[nodiscard]] std::optional<double> design_torque_Nm(const Stage& stage);
 
 /// What is wrong with the catalogue data, "pointer: message" with pointers relative to the stage; empty if all is well.
 [[nodiscard]] std::vector<std::string> catalogue_problems(const Stage& stage);
@@ -65,6 +69,17 @@ struct PlanetPhases {
 /// @param tolerance  of what is between its rows, relative to the mean [-]
 [[nodiscard]] StiffnessCurve stiffness_curve(const MeshedPair& mesh,
                                              double tolerance = StiffnessOptions{}.table_tolerance);
+
+/// The transmission error of modified flanks without load, at their places [G-secant].
+/// @param tolerance  of what is between its rows, relative to the largest one [-]
+[[nodiscard]] ErrorCurve error_curve(const LoadedContact& contact,
+                                     double tolerance = StiffnessOptions{}.table_tolerance);
+
+/// The contact of both meshes under the mean force of a torque on the sun, also of flanks without modification.
+struct LoadedContacts {
+  LoadedContact sun_planet, ring_planet;
+};
+[[nodiscard]] LoadedContacts loaded_contacts(const GearSet& set, double torque_Nm);
 
 /// Friction by lubricated contact of a mesh, with its load sharing.
 [[nodiscard]] EhlFriction ehl_of(const MeshedPair& mesh, const Lubrication& lubrication);

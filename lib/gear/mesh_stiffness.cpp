@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/quadrature.hpp"
+#include "gear/loaded_contact.hpp"
 
 namespace epicyclic::gear {
 
@@ -52,6 +53,7 @@ int MeshedPair::pairs_in_contact(double phase) const {
 }
 
 std::vector<double> MeshedPair::breakpoints() const {
+  if (loaded) return loaded->breakpoints();
   const double rest = contact_ratio() - std::floor(contact_ratio());
   if (rest < phase_resolution || rest > 1.0 - phase_resolution) return {0.0};
   return {0.0, rest};
@@ -63,12 +65,14 @@ double MeshedPair::stiffness(double phase) const {
 }
 
 double MeshedPair::stiffness(double phase, double inside) const {
+  if (loaded) return loaded->stiffness(phase);
   double sum = 0.0;
   for (int j = 0; j < pairs_in_contact(inside); ++j) sum += pair_stiffness(std::min(phase + j, contact_ratio()));
   return sum;
 }
 
 double MeshedPair::load_share(double position, double inside) const {
+  if (loaded) return loaded->load_share(position);
   const double phase_inside = inside - std::floor(inside);
   const double phase = position - std::floor(inside);
   const double own = pair_stiffness(position);

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "gear/pair.hpp"
@@ -24,12 +25,16 @@
 
 namespace epicyclic::gear {
 
+class LoadedContact;
+
 /// Both teeth of a pair in mesh, and how their compliance is counted.
 struct MeshedPair {
   Pair pair;
   ToothBody driving, driven;
   ComplianceOptions options;
   double factor = 1;  ///< on the stiffness [-]
+  /// Of modified flanks, at the load of the stage: its stiffness [G-secant] and shares are those of the mesh.
+  std::shared_ptr<const LoadedContact> loaded{};
 
   [[nodiscard]] double contact_ratio() const { return pair.contact_ratio(); }
   /// L of both gears: the smaller face width. The part of a tooth beyond the other one does not count [mm].
@@ -47,7 +52,7 @@ struct MeshedPair {
   /// Pairs in contact at a phase.
   [[nodiscard]] int pairs_in_contact(double phase) const;
 
-  /// Phases in [0, 1) where a pair enters or leaves, rising; the first is 0.
+  /// Phases in [0, 1) where a pair enters or leaves, or where loaded flanks have kinks, rising; the first is 0.
   [[nodiscard]] std::vector<double> breakpoints() const;
 
   /// k at a phase [N/m].

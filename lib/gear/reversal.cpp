@@ -40,6 +40,15 @@ StiffnessCurve reversed(const StiffnessCurve& curve) {
   return r;
 }
 
+ErrorCurve reversed(const ErrorCurve& curve) {
+  ErrorCurve r = curve;
+  const ReversedRows rows(curve.phase);
+  r.phase = rows.phase;
+  r.error_um = rows.of(curve.error_um, 1.0);
+  r.breakpoints = ReversedRows(curve.breakpoints).phase;
+  return r;
+}
+
 FrictionTable reversed(const FrictionTable& table) {
   FrictionTable r = table;
   const ReversedRows rows(table.phase);

@@ -21,6 +21,7 @@ namespace epicyclic::gear {
 [[nodiscard]] bool is_mirrored(const Stage& stage);
 
 [[nodiscard]] StiffnessCurve reversed(const StiffnessCurve& curve);
+[[nodiscard]] ErrorCurve reversed(const ErrorCurve& curve);
 [[nodiscard]] FrictionTable reversed(const FrictionTable& table);
 
 /// Grids of a table whose first breakpoint is 0.

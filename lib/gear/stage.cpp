@@ -142,6 +142,16 @@ void check_stiffness_curve(Problems& out, const std::string& pointer, const Mesh
     out.add(place, "stands in place of harmonics: stiffness_cos_N_per_m and stiffness_sin_N_per_m exclude it");
 }
 
+/// A curve without jumps: e' would be infinite there.
+void check_error_curve(Problems& out, const std::string& pointer, const ErrorCurve& c) {
+  if (!check_length(out, pointer + "/error_um", c.error_um.size(), c.phase.size())) return;
+  check_rows(out, pointer, c.phase, c.breakpoints);
+  for (std::size_t k = 1; k < c.phase.size(); ++k)
+    if (c.phase[k] == c.phase[k - 1])
+      out.add(pointer + "/phase/" + std::to_string(k),
+              "stands twice (", c.phase[k], "): the transmission error must not jump; one row at a breakpoint is a kink");
+}
+
 void check_stiffness(Problems& out, const std::string& pointer, const Mesh& mesh) {
   constexpr int samples = 1024;
   const auto& c = mesh.stiffness_cos_N_per_m;
@@ -515,6 +525,7 @@ std::vector<std::string> problems_for_dynamics(const Stage& s) {
     check_per_planet(out, std::string(pointer) + "/error_phase_deg", mesh.error_phase_deg, s.planet_count);
     if (mesh.error_mean_um)
       check_per_planet(out, std::string(pointer) + "/error_mean_um", *mesh.error_mean_um, s.planet_count);
+    if (mesh.error_curve) check_error_curve(out, std::string(pointer) + "/error_curve", *mesh.error_curve);
     if (mesh.stiffness_curve)
       check_stiffness_curve(out, pointer, mesh);
     else

@@ -211,6 +211,15 @@ struct StiffnessCurve {
   std::optional<double> error{};  ///< known greatest error between the rows, relative to the mean [-]
 };
 
+/// Transmission error as a curve over the mesh's own phase, in [0, 1); rows as in FrictionTable, but without jumps.
+struct ErrorCurve {
+  std::vector<double> phase;                              ///< [-]
+  std::vector<double> error_um;                           ///< e [um]
+  std::vector<double> breakpoints;                        ///< phases where the curve has a kink [-]
+  Interpolation interpolation = Interpolation::monotone;  ///< between the rows
+  std::optional<double> error{};  ///< known greatest error between the rows, relative to the largest row [-]
+};
+
 /// One kind of mesh: sun-planet or ring-planet, the same for all planets but for the errors.
 struct Mesh {
   double stiffness_N_per_m = 0;                        ///< mean k_0 [N/m]
@@ -222,6 +231,9 @@ struct Mesh {
   double backlash_half_um = 0;                         ///< half gap b [um]
   std::vector<double> error_amplitude_um = {0.0};      ///< E: one number, or one per planet [um]
   std::vector<double> error_phase_deg = {0.0};         ///< phi_0: one number, or one per planet [deg]
+  /// Harmonics h = 1, 2, ... of the transmission error on the mesh's own phase, the same for all planets [um].
+  std::optional<std::vector<double>> error_cos_um{}, error_sin_um{};
+  std::optional<ErrorCurve> error_curve{};  ///< added to them
   /// Constant part of the transmission error, of tooth thickness or spacing: one number, or one per planet [um].
   std::optional<std::vector<double>> error_mean_um{};
   Friction friction;

@@ -26,6 +26,16 @@
 
 namespace epicyclic::gear {
 
+enum class ReliefShape { linear, parabolic, circular };
+
+/// Material taken off a flank towards the tip or the root [G-relief, gear/loaded_contact.hpp].
+struct Relief {
+  double amount_um = 0;  ///< at the tip circle, or at the lowest point of contact [um]
+  ReliefShape shape = ReliefShape::linear;
+  std::optional<double> start_diameter_mm{};  ///< where it starts, by the diameter ...
+  std::optional<double> start_roll_mm{};      ///< ... or by the length of roll, sqrt(r^2 - r_b^2)
+};
+
 /// A gear as its drawing gives it.
 struct GearData {
   int teeth = 0;                           ///< z
@@ -37,6 +47,10 @@ struct GearData {
   double width_mm = 0;                     ///< face width
   std::optional<double> tip_diameter_mm;   ///< decides over coefficients and shortening
   std::optional<double> root_diameter_mm;  ///< decides over coefficients
+  std::optional<Relief> tip_relief{}, root_relief{};
+  std::optional<double> crowning_um{};  ///< parabolic, over the whole face width [um]
+
+  [[nodiscard]] bool is_modified() const { return tip_relief || root_relief || crowning_um; }
 };
 
 /// tan a - a

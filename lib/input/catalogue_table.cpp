@@ -17,6 +17,31 @@ const Bounds length_bounds = between(length_min_mm, length_max_mm);
 const Bounds factor = between(1e-6, 100);
 const Bounds coefficient = between(0, 5);
 
+const Table<gear::Relief>& relief_table(const std::string& name) {
+  static const auto make = [](const std::string& key, const std::string& end) {
+    using gear::Relief;
+    using gear::ReliefShape;
+    Table<Relief> t(key, "Relief of the flanks towards the " + end + ".");
+    t.number("amount_um", &Relief::amount_um, between(0, 1e4),
+             "Material that is taken off, along the line of action, at the " +
+                 std::string(end == "tip" ? "tip circle" : "lowest point of contact") + " [um].")
+        .required();
+    t.number("start_diameter_mm", &Relief::start_diameter_mm, length_bounds, "Diameter where the relief starts [mm].");
+    t.number("start_roll_mm", &Relief::start_roll_mm, length_bounds,
+             "Length of roll where the relief starts, sqrt(r^2 - r_b^2), in place of the diameter [mm].");
+    t.choice("shape", &Relief::shape,
+             std::vector<std::pair<std::string, ReliefShape>>{{"linear", ReliefShape::linear},
+                                                              {"parabolic", ReliefShape::parabolic},
+                                                              {"circular", ReliefShape::circular}},
+             "Shape over the length of roll.");
+    t.rule(KeyRule::Kind::exactly_one, {"start_diameter_mm", "start_roll_mm"});
+    return t;
+  };
+  static const auto tip = make("tip_relief", "tip");
+  static const auto root = make("root_relief", "root");
+  return name == "tip" ? tip : root;
+}
+
 template <class T>
 void add_gear_data(Table<T>& t) {
   const auto data = [](auto member) {
@@ -39,6 +64,21 @@ void add_gear_data(Table<T>& t) {
            "Diameter of the tip circle [mm]; decides over addendum coefficient and tip shortening.");
   t.number("root_diameter_mm", data(&GearData::root_diameter_mm), length_bounds,
            "Diameter of the root circle [mm]; decides over the coefficients.");
+  const auto relief = [](std::optional<gear::Relief> GearData::*member) {
+    return table_detail::Access<T, gear::Relief>{[=](T& gear) -> gear::Relief& {
+                                                   auto& relief = gear.data.*member;
+                                                   if (!relief) relief.emplace();
+                                                   return *relief;
+                                                 },
+                                                 [=](const T& gear) -> const gear::Relief* {
+                                                   const auto& relief = gear.data.*member;
+                                                   return relief ? &*relief : nullptr;
+                                                 }};
+  };
+  t.object("tip_relief", relief(&GearData::tip_relief), relief_table("tip"));
+  t.object("root_relief", relief(&GearData::root_relief), relief_table("root"));
+  t.number("crowning_um", data(&GearData::crowning_um), between(0, 1e4),
+           "Crowning over the whole face width, parabolic, at the ends of the face [um].");
   t.integer(
       "accuracy_grade", [](auto& gear) -> auto& { return gear.accuracy_grade; }, between(0, 12),
       "Accuracy grade of ISO 1328-1:1995 [-]; gives the amplitude of the transmission error.");
@@ -194,6 +234,9 @@ const Table<gear::StiffnessOptions>& stiffness_table() {
              "Factor on the computed stiffness of the sun-planet mesh [-].");
     t.number("ring_planet_factor", &StiffnessOptions::ring_planet_factor, factor,
              "Factor on the computed stiffness of the ring-planet mesh [-].");
+    t.number("design_torque_Nm", &StiffnessOptions::design_torque_Nm, between(1e-9, 1e9),
+             "Torque on the sun at which the contact of modified flanks is computed; that of the load if it is not "
+             "given [N m].");
     t.number("table_tolerance", &StiffnessOptions::table_tolerance, table_tolerance,
              "Error that the rows of the whole curve are made fine enough for, relative to the mean [-].");
     return t;

@@ -525,21 +525,15 @@ JsonSource parse_json(std::string bytes, std::string name) {
   return source;
 }
 
-JsonSource read_json_file(const std::filesystem::path& path, std::string name) {
-  if (name.empty()) name = path.string();
-  JsonSource source;
-  source.name = name;
-  const auto refuse = [&](std::string message) {
-    source.problems.push_back({name, 0, "", std::move(message)});
-    return source;
-  };
+TextFile read_text_file(const std::filesystem::path& path, const std::string& kind) {
+  const auto refuse = [&](std::string message) { return TextFile{{}, std::move(message)}; };
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
     return refuse(status.type() == std::filesystem::file_type::not_found ? "no such file"
                                                                          : "cannot be read: " + error.message());
   }
-  if (std::filesystem::is_directory(status)) return refuse("is a directory, not a JSON file");
+  if (std::filesystem::is_directory(status)) return refuse("is a directory, not a " + kind + " file");
   if (!std::filesystem::is_regular_file(status)) return refuse("is not a regular file");
   const FileDescriptor file = open_descriptor(path, O_RDONLY);
   if (!file.is_open()) {
@@ -552,7 +546,17 @@ JsonSource read_json_file(const std::filesystem::path& path, std::string name) {
     count = read_at(file.get(), path, bytes.size(), block.data(), block.size());
     bytes.append(block.data(), count);
   }
-  return parse_json(std::move(bytes), std::move(name));
+  return {std::move(bytes), {}};
+}
+
+JsonSource read_json_file(const std::filesystem::path& path, std::string name) {
+  if (name.empty()) name = path.string();
+  TextFile text = read_text_file(path, "JSON");
+  if (text.problem.empty()) return parse_json(std::move(text.bytes), std::move(name));
+  JsonSource source;
+  source.name = name;
+  source.problems.push_back({std::move(name), 0, "", std::move(text.problem)});
+  return source;
 }
 
 void JsonFiles::add(const std::filesystem::path& path, std::string text) {
@@ -564,6 +568,12 @@ const JsonSource& JsonFiles::read(const std::filesystem::path& path) {
   const std::scoped_lock lock(mutex_);
   if (const auto known = files_.find(path); known != files_.end()) return known->second;
   return files_.emplace(path, read_json_file(path)).first->second;
+}
+
+const TextFile& JsonFiles::read_text(const std::filesystem::path& path, const std::string& kind) {
+  const std::scoped_lock lock(mutex_);
+  if (const auto known = texts_.find(path); known != texts_.end()) return known->second;
+  return texts_.emplace(path, read_text_file(path, kind)).first->second;
 }
 
 std::string misspelt_number(std::string_view text) {

@@ -71,6 +71,16 @@ struct JsonSource {
 /// Reads a text. Never throws for errors in the text: see `problems`.
 [[nodiscard]] JsonSource parse_json(std::string bytes, std::string name);
 
+/// A file as it is, or why it cannot be read.
+struct TextFile {
+  std::string bytes;
+  std::string problem;  ///< empty: there are the bytes, of a file that is too long a part
+};
+
+/// @param kind  of the file, in messages: "JSON"
+/// @throws OutputError if the machine fails
+[[nodiscard]] TextFile read_text_file(const std::filesystem::path& path, const std::string& kind);
+
 /// Reads a file. A missing file, a folder, and a file without permission are problems too. `name` is the name in
 /// messages (default: the path).
 /// @throws OutputError if the machine fails: no descriptor is left, or the disk has an error
@@ -83,12 +93,17 @@ class JsonFiles {
   /// @throws as read_json_file()
   [[nodiscard]] const JsonSource& read(const std::filesystem::path& path);
 
+  /// A file that is no JSON.
+  /// @throws as read_text_file()
+  [[nodiscard]] const TextFile& read_text(const std::filesystem::path& path, const std::string& kind);
+
   /// A text in place of the file that read() would read.
   void add(const std::filesystem::path& path, std::string text);
 
  private:
   std::mutex mutex_;
   std::map<std::filesystem::path, JsonSource> files_;
+  std::map<std::filesystem::path, TextFile> texts_;
 };
 
 /// The first byte that makes a text invalid UTF-8 (RFC 3629), without NUL; empty if there is none.

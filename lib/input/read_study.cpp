@@ -84,9 +84,11 @@ bool judge_stage(const Study& study, const std::string& root, F not_computed, Re
 
 }  // namespace
 
-bool feeds_completion(std::string_view pointer, bool bare) {
+bool feeds_completion(std::string_view pointer, bool bare, const gear::Stage& stage) {
   const std::string root = bare ? "" : std::string(stage_root);
-  return pointer_within(pointer, root + "/catalogue") || pointer_within(pointer, root + "/planets");
+  const bool loaded = stage.catalogue && stage.catalogue->is_modified() && !stage.catalogue->stiffness.design_torque_Nm;
+  return pointer_within(pointer, root + "/catalogue") || pointer_within(pointer, root + "/planets") ||
+         (loaded && pointer_within(pointer, root + "/load"));
 }
 
 std::pair<Study, bool> read_study(json& whole, bool bare, ReadContext& context, json* computed) {

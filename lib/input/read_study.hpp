@@ -12,8 +12,8 @@
 
 namespace epicyclic::input {
 
-/// Is this a value from which others are computed [stage_completion.hpp]?
-[[nodiscard]] bool feeds_completion(std::string_view pointer, bool bare);
+/// Is this a value of the stage from which others are computed [stage_completion.hpp]?
+[[nodiscard]] bool feeds_completion(std::string_view pointer, bool bare, const gear::Stage& stage);
 
 /// Reads the whole input from one JSON value, which is completed from catalogue data first: the tables, then the rules
 /// that combine objects.

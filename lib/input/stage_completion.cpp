@@ -121,16 +121,29 @@ double in_two_digits(double error) {
 void fill_mesh(Filler mesh, const gear::MeshedPair& pair, const gear::FourierSeries& series,
                const gear::Catalogue& catalogue, const std::optional<gear::Tolerances>& first,
                const std::optional<gear::Tolerances>& second) {
-  mesh.fill("stiffness_N_per_m", series.mean, "[G-k] energy method, mean over a mesh period");
+  const std::string law = pair.loaded ? "[G-secant] modified flanks at the design torque" : "[G-k] energy method";
+  mesh.fill("stiffness_N_per_m", series.mean, law + ", mean over a mesh period");
   if (catalogue.stiffness.form == gear::StiffnessForm::harmonics) {
-    mesh.fill("stiffness_cos_N_per_m", series.cosine, "[G-4] energy method, Fourier series");
-    mesh.fill("stiffness_sin_N_per_m", series.sine, "[G-4] energy method, Fourier series");
+    const std::string fourier =
+        pair.loaded ? law + ", Fourier series" : std::string("[G-4] energy method, Fourier series");
+    mesh.fill("stiffness_cos_N_per_m", series.cosine, fourier);
+    mesh.fill("stiffness_sin_N_per_m", series.sine, fourier);
   } else {
     const gear::StiffnessCurve curve = gear::stiffness_curve(pair, catalogue.stiffness.table_tolerance);
     Filler rows = mesh.below("stiffness_curve");
-    const std::string tag = "[G-k] energy method";
+    const std::string& tag = law;
     rows.fill("phase", curve.phase, tag);
     rows.fill("stiffness_N_per_m", curve.stiffness_N_per_m, tag);
+    rows.fill("breakpoints", curve.breakpoints, tag);
+    rows.fill("interpolation", smooth_word, "its rows are those of a smooth function");
+    rows.fill("error", in_two_digits(*curve.error), "of a curve half as fine, by the order of the interpolation");
+  }
+  if (pair.loaded) {
+    const gear::ErrorCurve curve = gear::error_curve(*pair.loaded, catalogue.stiffness.table_tolerance);
+    Filler rows = mesh.below("error_curve");
+    const std::string tag = "[G-secant] modified flanks without load";
+    rows.fill("phase", curve.phase, tag);
+    rows.fill("error_um", curve.error_um, tag);
     rows.fill("breakpoints", curve.breakpoints, tag);
     rows.fill("interpolation", smooth_word, "its rows are those of a smooth function");
     rows.fill("error", in_two_digits(*curve.error), "of a curve half as fine, by the order of the interpolation");
@@ -310,6 +323,18 @@ void choose_forms(json& mesh, json& computed) {
       computed.erase("stiffness_sin_N_per_m");
     }
   }
+  // Given harmonics or rows of the error replace the amplitude of a tolerance; rows replace those of modified flanks.
+  const auto errors = mesh.find("error_curve");
+  const bool rows_given = errors != mesh.end() && (!errors->is_object() || gives(*errors));
+  if (rows_given || is_given(mesh, "error_cos_um") || is_given(mesh, "error_sin_um")) {
+    computed.erase("error_amplitude_um");
+    if (!is_given(mesh, "error_amplitude_um") && mesh.erase("error_amplitude_um") > 0)
+      mesh["origin"].erase("error_amplitude_um");
+  }
+  if (rows_given)
+    computed.erase("error_curve");
+  else if (errors != mesh.end() && !computed.contains("error_curve"))
+    mesh.erase(errors);
   const auto friction = mesh.find("friction");
   if (friction == mesh.end()) return leave_lubricated(computed);
   if (!friction->is_object()) {
@@ -379,7 +404,12 @@ Completion complete_stage(json& stage, const std::string& root, ReadContext& con
     if (const auto it = stage.find(key); it != stage.end()) stated[key] = *it;
   if (const auto planets = stated.find("planets"); planets != stated.end() && planets->is_object())
     if (!is_given(*planets, "centre_distance_mm")) planets->erase("centre_distance_mm");
-  const auto read = readable_part(stated);
+  auto read = readable_part(stated);
+  if (read && read->catalogue->is_modified() && stage.contains("load")) {
+    // The load of modified flanks; it must not keep other values from being computed if it cannot be read.
+    stated["load"] = stage["load"];
+    if (auto with_load = readable_part(stated)) read = std::move(with_load);
+  }
   if (!read) return {.complete = false, .computed = {}};
   const auto problems = gear::catalogue_problems(*read);
   for (const std::string& problem : problems) {

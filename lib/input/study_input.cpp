@@ -13,8 +13,9 @@
 #include <tuple>
 #include <utility>
 
-#include "core/csv.hpp"
 #include "input/aliases.hpp"
+#include "input/csv_columns.hpp"
+#include "input/curve_files.hpp"
 #include "input/given_speeds.hpp"
 #include "input/input_sources.hpp"
 #include "input/origins.hpp"
@@ -89,6 +90,7 @@ class LoadedInput::Loader {
     read_torque_file();
     for (auto& set : sources_->sets)
       if (sources_->bare && pointer_within(set.pointer, stage_root)) set.pointer.erase(0, stage_root.size());
+    read_curves();
     read_values();
     check_varied();
     if (!problems_.empty()) raise();
@@ -255,31 +257,35 @@ class LoadedInput::Loader {
     if (named == study->end() || !named->is_string()) return;
     if (study->contains("torque_time_s") || study->contains("torque_Nm"))
       return refuse(place, "gives torque_time_s and torque_Nm; take these out");
-    const JsonSource file = sources_->files->read(sources_->path.parent_path() / named->get<std::string>());
-    if (file.bytes.empty())
-      return refuse(place, file.name + ": " + (file.problems.empty() ? "is empty" : file.problems.front().message));
-    std::string text = file.bytes;
-    std::erase(text, '\r');
-    const std::optional<CsvTable> table = parse_csv(text);
-    if (!table) return refuse(place, file.name + ": is no table of comma-separated values");
-    json rows = {{"torque_time_s", json::array()}, {"torque_Nm", json::array()}};
-    for (const auto& [key, column] : {std::pair("torque_time_s", "time_s"), std::pair("torque_Nm", "torque_Nm")}) {
-      const std::size_t at = table->index_of(column);
-      if (at == table->columns.size())
-        return refuse(place, file.name + ": has no column " + column + "; its first line names the columns");
-      for (std::size_t row = 0; row < table->rows.size(); ++row) {
-        const std::string& cell = table->rows[row][at];
-        double value = 0.0;
-        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-        if (error != std::errc() || end != cell.data() + cell.size())
-          return refuse(place, file.name + ":" + std::to_string(row + 2) + ": " + column + " is no number");
-        rows[key].push_back(value);
-      }
-      (*study)["origin"][key] = "file: " + named->get<std::string>();
+    const auto name = named->get<std::string>();
+    try {
+      const auto rows =
+          csv_columns(sources_->files->read_text(sources_->path.parent_path() / name, "CSV"), {"time_s", "torque_Nm"});
+      (*study)["torque_time_s"] = rows[0];
+      (*study)["torque_Nm"] = rows[1];
+      for (const char* key : {"torque_time_s", "torque_Nm"}) (*study)["origin"][key] = "table: " + name;
+    } catch (const InputError& error) {
+      return refuse(place, "the file " + name + ": " + error.what());
     }
     study->erase("torque_file");
-    if (const auto origin = study->find("origin"); origin != study->end()) origin->erase("torque_file");
-    study->update(rows);
+    (*study)["origin"].erase("torque_file");
+  }
+
+  /// Puts the rows of the CSV files that curves name in the places of the names.
+  void read_curves() {
+    json* stage = sources_->bare ? &whole_ : find_at(whole_, stage_root);
+    if (stage == nullptr) return;
+    read_curve_files(
+        *stage, std::string(sources_->bare ? "" : stage_root),
+        [this](const std::string& pointer, const std::string& name) -> const TextFile& {
+          const bool of_stage = sources_->stage && sources_->locate(pointer, "").file == sources_->stage->name;
+          const std::filesystem::path beside = of_stage ? sources_->stage->name : sources_->path.string();
+          return sources_->files->read_text(beside.parent_path() / name, "CSV");
+        },
+        [this](const std::string& pointer, std::string message) {
+          refuse(pointer, std::move(message));
+          found_.insert(pointer);
+        });
   }
 
   void patch_stage() {
@@ -486,7 +492,10 @@ class LoadedInput::Loader {
         // Values from catalogue data are computed only once if the fixed value alone affects them.
         json completed;
         Study with_fixed;
-        if (!feeds_completion(along.name, sources_->bare) && feeds_completion(other.name, sources_->bare) &&
+        const auto feeds = [this](const std::string& pointer) {
+          return feeds_completion(pointer, sources_->bare, input_.study.stage);
+        };
+        if (!feeds(along.name) && feeds(other.name) &&
             check_with(as_given(), other, {fixed}, with_fixed, &completed).empty())
           check_values(along, place, {completed, as_given().study == nullptr ? nullptr : &with_fixed}, {}, words);
         else
@@ -565,7 +574,7 @@ std::vector<Problem> LoadedInput::check_with(const Base& base, std::span<const P
       return refuse("\"" + place + "\" is " + described(*there) + ", must be a number" +
                     (there->is_array() && !there->empty() ? "; did you mean '" + pointer + "/0'?" : ""));
     if (!std::isfinite(value)) return refuse("is " + number_text(value) + ", must be a finite number");
-    is_completed = is_completed && !feeds_completion(place, sources_->bare);
+    is_completed = is_completed && !feeds_completion(place, sources_->bare, study.stage);
     places.push_back({std::move(place), value});
   }
   ReadContext context;

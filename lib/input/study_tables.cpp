@@ -376,16 +376,60 @@ const Table<Friction>& friction_table() {
   return table;
 }
 
+/// Keys of a curve that a CSV file gives in place of its rows. The loader replaces them by the rows [curve_files.hpp].
+template <class T>
+void add_file(Table<T>& table, const std::string& column) {
+  const auto text = [&](const char* key, std::string description) {
+    Field<T> field;
+    field.key = key;
+    field.description = std::move(description);
+    field.read = [](const json& value, const std::string& pointer, T&, ReadContext& context) {
+      if (!value.is_string())
+        context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be a string");
+    };
+    field.write = [](const T&) { return json(); };
+    field.schema = [] { return ordered_json{{"type", "string"}}; };
+    table.custom(std::move(field));
+  };
+  text("file", "CSV file with the columns `phase` and `" + column +
+                   "`, in place of the rows, relative to the file that "
+                   "names it.");
+  text("column", "Column of the file in place of `" + column + "`.");
+  table.rule(KeyRule::Kind::exactly_one, {"file", "phase"});
+  table.rule(KeyRule::Kind::together, {"phase", column});
+  table.rule(KeyRule::Kind::needs, {"column", "file"});
+}
+
+const Table<gear::ErrorCurve>& error_table() {
+  static const auto table = [] {
+    using gear::ErrorCurve;
+    Table<ErrorCurve> t(
+        "error_curve", "Transmission error over the mesh's own phase, beside the harmonics, the same for all planets.");
+    add_file(t, "error_um");
+    t.numbers("phase", &ErrorCurve::phase, from_below(0, 1), 2, 100000,
+              "Phase of the rows, 0 where a pair enters, rising [-].");
+    t.numbers("error_um", &ErrorCurve::error_um, signed_error, 2, 100000,
+              "Transmission error at each phase [um]. Positive unloads the mesh.");
+    t.numbers("breakpoints", &ErrorCurve::breakpoints, from_below(0, 1), 0, 1000,
+              "Phases where the curve has a kink [-]. It must not jump.");
+    t.choice("interpolation", &ErrorCurve::interpolation, interpolations,
+             "Between the rows of the curve: " + interpolation_words);
+    t.number("error", &ErrorCurve::error, table_error,
+             "Greatest error between the rows, relative to the largest row [-].");
+    return t;
+  }();
+  return table;
+}
+
 const Table<gear::StiffnessCurve>& curve_table() {
   static const auto table = [] {
     using gear::StiffnessCurve;
     Table<StiffnessCurve> t("stiffness_curve", "Mesh stiffness over the mesh's own phase, in place of harmonics.");
+    add_file(t, "stiffness_N_per_m");
     t.numbers("phase", &StiffnessCurve::phase, from_below(0, 1), 2, 100000,
-              "Phase of the rows, 0 where a pair enters, rising; a jump is two rows of one phase [-].")
-        .required();
+              "Phase of the rows, 0 where a pair enters, rising; a jump is two rows of one phase [-].");
     t.numbers("stiffness_N_per_m", &StiffnessCurve::stiffness_N_per_m, stiffness, 2, 100000,
-              "Stiffness at each phase [N/m].")
-        .required();
+              "Stiffness at each phase [N/m].");
     t.numbers("breakpoints", &StiffnessCurve::breakpoints, from_below(0, 1), 0, 1000,
               "Phases where the curve jumps or kinks [-].");
     t.choice("interpolation", &StiffnessCurve::interpolation, interpolations,
@@ -416,6 +460,12 @@ const Table<Mesh>& mesh_table() {
                         "Amplitude of the transmission error [um]: one number, or one per planet.");
     t.number_or_numbers("error_phase_deg", &Mesh::error_phase_deg, between(-largest_angle_deg, largest_angle_deg),
                         gear::planets_max, "Phase of the transmission error [deg]: one number, or one per planet.");
+    t.numbers("error_cos_um", &Mesh::error_cos_um, signed_error, 0, gear::harmonics_max,
+              "Cosine coefficients of the harmonics 1, 2, ... of the transmission error on the mesh's own phase, the "
+              "same for all planets and beside error_amplitude_um [um].");
+    t.numbers("error_sin_um", &Mesh::error_sin_um, signed_error, 0, gear::harmonics_max,
+              "Sine coefficients of the same [um].");
+    t.object("error_curve", present(&Mesh::error_curve), error_table());
     t.number_or_numbers("error_mean_um", &Mesh::error_mean_um, signed_error, gear::planets_max,
                         "Constant part of the transmission error, of tooth thickness or spacing [um]: one number, or "
                         "one per planet. Positive unloads the mesh.");

@@ -57,6 +57,8 @@ bool planets_alike(const Parameters<double, N>& p) {
     bool alike = mesh.in_phase && mesh.shafts.empty();
     for (std::size_t h = 0; h < mesh.harmonics; ++h)
       alike = alike && equal(mesh.stiffness_cos[h]) && equal(mesh.stiffness_sin[h]);
+    for (std::size_t h = 0; h < mesh.further_error_cos.size(); ++h)
+      alike = alike && equal(mesh.further_error_cos[h]) && equal(mesh.further_error_sin[h]);
     return alike && equal(mesh.error_cos) && equal(mesh.error_sin) && equal(mesh.error_mean);
   };
   // Angles 2 pi / N apart: their N-th multiples are one angle, and no two are the same.
@@ -96,8 +98,12 @@ void remove_synchronous(Layout layout, const Parameters<double, N>& p, std::span
 
 /// Coefficients for deflections alone: without the tables of stiffness and friction.
 template <std::size_t N>
-PhaseCoefficients<double, N> without_tables(const Parameters<double, N>& p, double s) {
-  return {p, HarmonicBasis<double>(sine_cosine(s), harmonics_of(p)), s};
+PhaseCoefficients<double, N> errors_at(const Parameters<double, N>& p, double s) {
+  PhaseCoefficients<double, N> now(p, HarmonicBasis<double>(sine_cosine(s), harmonics_of(p)), s);
+  const Segment<N>& segment = p.segments[segment_at(p.breakpoints, s)];
+  now.sun_planet.interpolate_error(p.omega, p.sun_planet, segment.sun_planet, s);
+  now.ring_planet.interpolate_error(p.omega, p.ring_planet, segment.ring_planet, s);
+  return now;
 }
 
 template <std::size_t N>
@@ -105,7 +111,7 @@ void deflections_at(Layout layout, const Parameters<double, N>& p, double s, con
   constexpr Planets<N> all;
   const Deflections<double, N> d = deflections(p, all, unpack(layout, all, y));
   const Deflections<double, N> d_rate = deflections(p, all, unpack(layout, all, y + degrees_of_freedom(layout, N)));
-  const PhaseCoefficients<double, N> now = without_tables(p, s);
+  const PhaseCoefficients<double, N> now = errors_at(p, s);
   const auto set = [](std::vector<double>& row, const Row<double, N>& values) {
     row.assign(values.begin(), values.end());
   };
@@ -141,7 +147,8 @@ void forces_at(Layout layout, const Parameters<double, N>& p, double s, const do
 /// Tables with rows of something known: what is between them has an error.
 bool has_computed_tables(const gear::Stage& stage) {
   const auto of = [](const gear::Mesh& mesh) {
-    return mesh.friction.ehl || (mesh.stiffness_curve && mesh.stiffness_curve->interpolation == Interpolation::smooth);
+    const auto computed = [](const auto& curve) { return curve && curve->interpolation == Interpolation::smooth; };
+    return mesh.friction.ehl || computed(mesh.stiffness_curve) || computed(mesh.error_curve);
   };
   return of(stage.sun_planet_mesh) || of(stage.ring_planet_mesh);
 }
@@ -229,7 +236,7 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
   };
   m.surfaces.count = contacts_of(*p);
   m.surfaces.evaluate = [layout, p](double s, const double* y, double* distances, double* rates) {
-    contact_distances(layout, *p, without_tables(*p, s), y, distances, rates);
+    contact_distances(layout, *p, errors_at(*p, s), y, distances, rates);
   };
   m.forces = [layout, p](double s, const double* y, StageForces& out) { forces_at(layout, *p, s, y, out); };
   m.outputs_at = make_stage_outputs(layout, p);
@@ -300,7 +307,7 @@ DynamicModel ramped(Layout layout, const gear::Stage& stage, const Scales& scale
   };
   m.surfaces.evaluate = [layout, p, set](double s, const double* y, double* distances, double* rates) {
     set(s);
-    contact_distances(layout, *p, without_tables(*p, s), y, distances, rates);
+    contact_distances(layout, *p, errors_at(*p, s), y, distances, rates);
   };
   m.tangents = {};
   m.outputs_at = {};

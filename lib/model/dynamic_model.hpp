@@ -58,8 +58,8 @@ struct Shaft {
 struct DynamicModel : VectorField {
   DynamicModel() { period = 2.0 * std::numbers::pi; }
 
-  int planets = 0;       ///< 1: a pair of gears
-  int mesh_periods = 1;  ///< in the period of the field: more than 1 with errors of shafts [M-shaft]
+  int planets = 0;            ///< 1: a pair of gears
+  int mesh_periods = 1;       ///< in the period of the field: more than 1 with errors of shafts [M-shaft]
   std::vector<Shaft> shafts;  ///< with errors [M-shaft]
   Layout layout = Layout::relative_to_ring;
   std::vector<std::string> state_names;  ///< x_s, ..., then x_s_rate, ...

@@ -70,4 +70,11 @@ class FrictionTrack {
 /// Mesh stiffness as a curve over the mesh's own phase, in units of `unit` [N/m].
 [[nodiscard]] PeriodicTrack<1> stiffness_track(const gear::StiffnessCurve& curve, double unit);
 
+/// e and de/ds of a curve over the mesh's own phase s / 2 pi, in units of `unit_um`; de/ds is that of the cubics of e.
+///                                                                                                       [M-e-curve]
+[[nodiscard]] PeriodicTrack<3> error_track(const gear::ErrorCurve& curve, double unit_um);
+
+/// Mean of a stiffness curve, exactly that of its interpolation [N/m].
+[[nodiscard]] double mean_stiffness(const gear::StiffnessCurve& curve);
+
 }  // namespace epicyclic::model

@@ -73,12 +73,15 @@ struct LanePlace {
       return cubics_at<W, K>(own, found.t);
     }
     std::array<Row<double, K>, W> rows;
-    for (std::size_t lane = 0; lane < W; ++lane) {
-      const auto number = static_cast<std::size_t>(found.number[lane]);
-      rows[lane] = track_segments[lane].regular ? cubics_at(cubics[lane][number], found.t[lane])
-                                                : track[lane]->at(track_segments[lane], found.x[lane], number);
-    }
+    for (std::size_t lane = 0; lane < W; ++lane) rows[lane] = in_lane(lane, found);
     return transposed<W, K>(rows);
+  }
+
+  /// The same of one lane.
+  [[nodiscard]] Row<double, K> in_lane(std::size_t lane, const LaneInterval<W>& found) const {
+    const auto number = static_cast<std::size_t>(found.number[lane]);
+    return track_segments[lane].regular ? cubics_at(cubics[lane][number], found.t[lane])
+                                        : track[lane]->at(track_segments[lane], found.x[lane], number);
   }
 };
 
@@ -87,11 +90,13 @@ template <std::size_t N, std::size_t W>
 struct LaneMeshPlaces {
   std::array<LanePlace<1, W>, N> stiffness;
   std::array<LanePlace<3, W>, N> friction;
+  std::array<LanePlace<3, W>, N> error;
 
   void set(std::size_t lane, const MeshParameters<double, N>& mesh, const MeshPlaces<N>& places) {
     for (std::size_t i = 0; i < N; ++i) {
       if (mesh.stiffness_curve) stiffness[i].set(lane, *mesh.stiffness_curve, places.stiffness[i]);
       if (mesh.friction) friction[i].set(lane, mesh.friction->track(), places.friction[i]);
+      if (mesh.error_curve) error[i].set(lane, *mesh.error_curve, places.error[i]);
     }
   }
 };
@@ -152,7 +157,9 @@ void LaneParameters<N, W>::check(const Parameters<double, N>& p) const {
   const auto& own = constants_;
   const auto mesh_fits = [](const MeshParameters<double, N>& m, const MeshParameters<Lanes<W>, N>& to) {
     bool alike = m.harmonics == to.harmonics && (m.friction != nullptr) == (to.friction != nullptr) &&
-                 (m.stiffness_curve != nullptr) == (to.stiffness_curve != nullptr);
+                 (m.stiffness_curve != nullptr) == (to.stiffness_curve != nullptr) &&
+                 (m.error_curve != nullptr) == (to.error_curve != nullptr) &&
+                 m.further_error_cos.size() == to.further_error_cos.size();
     for (std::size_t i = 0; i < N; ++i) alike = alike && m.phase_cycles[i] == to.phase_cycles[i];
     alike = alike && m.shafts.size() == to.shafts.size();
     for (std::size_t k = 0; alike && k < m.shafts.size(); ++k)

@@ -52,12 +52,53 @@ gear::StiffnessCurve halved(gear::StiffnessCurve curve) {
   curve.stiffness_N_per_m = kept(curve.stiffness_N_per_m, rows);
   return curve;
 }
+gear::ErrorCurve halved(gear::ErrorCurve curve) {
+  if (curve.interpolation != Interpolation::smooth) return curve;
+  const auto rows = every_second(curve.phase, curve.breakpoints);
+  curve.phase = kept(curve.phase, rows);
+  curve.error_um = kept(curve.error_um, rows);
+  return curve;
+}
 gear::EhlFriction halved(gear::EhlFriction e) {
   if (e.share_interpolation != Interpolation::smooth) return e;
   const auto rows = every_second(e.share_position, {});
   e.share_position = kept(e.share_position, rows);
   e.share = kept(e.share, rows);
   return e;
+}
+
+/// A cos h(s + psi) + B sin h(s + psi) as harmonics of s, psi = 2 pi phase_cycles; backward - B, of e as a function
+/// [G-rev].
+template <std::size_t N>
+void add_harmonic(Row<double, N>& cosine, Row<double, N>& sine, std::size_t planet, double a, double b, double psi) {
+  cosine[planet] += a * std::cos(psi) + b * std::sin(psi);
+  sine[planet] += b * std::cos(psi) - a * std::sin(psi);
+}
+
+/// Harmonics of the error beside the sine of each planet, and the table.                                  [M-e]
+template <std::size_t N>
+void fill_further_errors(MeshParameters<double, N>& m, const gear::Mesh& mesh, const Scales& scales, bool halve,
+                         bool backward) {
+  if (mesh.error_curve) {
+    const gear::ErrorCurve curve = halve ? halved(*mesh.error_curve) : *mesh.error_curve;
+    m.error_curve = std::make_shared<PeriodicTrack<3>>(
+        error_track(backward ? gear::reversed(curve) : curve, scales.displacement_um(1.0)));
+  }
+  const std::vector<double> none;
+  const std::vector<double>& a = mesh.error_cos_um ? *mesh.error_cos_um : none;
+  const std::vector<double>& b = mesh.error_sin_um ? *mesh.error_sin_um : none;
+  const std::size_t harmonics = std::max(a.size(), b.size());
+  const std::size_t further = harmonics > 1 ? harmonics - 1 : 0;
+  m.further_error_cos.assign(further, Row<double, N>(0.0));
+  m.further_error_sin.assign(further, Row<double, N>(0.0));
+  const auto amplitude = [&](const std::vector<double>& um, std::size_t h) {
+    return h < um.size() ? scales.displacement(um[h] * 1e-6) : 0.0;
+  };
+  for (std::size_t h = 0; h < harmonics; ++h)
+    for (std::size_t i = 0; i < N; ++i)
+      add_harmonic(h == 0 ? m.error_cos : m.further_error_cos[h - 1], h == 0 ? m.error_sin : m.further_error_sin[h - 1],
+                   i, amplitude(a, h), backward ? -amplitude(b, h) : amplitude(b, h),
+                   static_cast<double>(h + 1) * two_pi * m.phase_cycles[i]);
 }
 
 /// Completes a mesh whose sines and cosines are known.
@@ -95,6 +136,7 @@ void fill_mesh(MeshParameters<double, N>& m, const gear::Mesh& mesh, const std::
     m.error_sin[i] = amplitude * std::cos(theta);
     m.error_mean[i] = scales.displacement(mesh.error_mean_um ? per_planet(*mesh.error_mean_um, i) * 1e-6 : 0.0);
   }
+  fill_further_errors(m, mesh, scales, halve, backward);
   constexpr double rounding = 1e-9;  // of a mesh period
   m.in_phase = true;
   for (const double cycles : m.phase_cycles) {
@@ -287,6 +329,7 @@ void append_breakpoints(const MeshParameters<double, N>& mesh, std::vector<doubl
   };
   if (mesh.friction) append_of(*mesh.friction);
   if (mesh.stiffness_curve) append_of(*mesh.stiffness_curve);
+  if (mesh.error_curve) append_of(*mesh.error_curve);
 }
 
 /// d of [M-rows] of one kind of mesh at a common phase, in s. The highest of H harmonics is sampled twice a period.
@@ -297,8 +340,11 @@ double sampling_interval(const MeshParameters<double, N>& mesh, double common_ph
     const double own = common_phase + mesh.phase_cycles[i];
     if (mesh.friction) least = std::min(least, mesh.friction->spacing().at(own));
     if (mesh.stiffness_curve) least = std::min(least, mesh.stiffness_curve->spacing().at(own));
+    if (mesh.error_curve) least = std::min(least, mesh.error_curve->spacing().at(own));
   }
   if (mesh.harmonics > 0) least = std::min(least, 0.5 / static_cast<double>(mesh.harmonics));
+  if (!mesh.further_error_cos.empty())
+    least = std::min(least, 0.5 / static_cast<double>(mesh.further_error_cos.size() + 1));
   return two_pi * least;
 }
 
@@ -308,6 +354,7 @@ MeshPlaces<N> places(const MeshParameters<double, N>& mesh, double common_phase)
   for (std::size_t i = 0; i < N; ++i) {
     if (mesh.friction) r.friction[i] = mesh.friction->place(common_phase + mesh.phase_cycles[i]);
     if (mesh.stiffness_curve) r.stiffness[i] = mesh.stiffness_curve->place(common_phase + mesh.phase_cycles[i]);
+    if (mesh.error_curve) r.error[i] = mesh.error_curve->place(common_phase + mesh.phase_cycles[i]);
   }
   return r;
 }

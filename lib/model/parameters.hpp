@@ -5,7 +5,8 @@
 //
 //   s_spi = s - z_s (phi_i - phi_1) ,  s_rpi = s + z_r (phi_i - phi_1) + 2 pi lambda_sr                  [M-phase]
 //   k_i(s) = k_0 + sum_h [ C_hi cos h s + S_hi sin h s ]  or a table over s_i                            [M-4]
-//   e_i(s) = a_i cos s + b_i sin s + e_0i   from   E_i sin(s_i + phi_0i) and constant errors             [M-e]
+//   e_i(s) = sum_h [ a_hi cos h s + b_hi sin h s ] + e_0i   from   E_i sin(s_i + phi_0i), harmonics and constant
+//            errors, and a table over s_i                                                                [M-e]
 //
 // Units: displacements in b_c, time in tau, masses in m_0 (model/scales.hpp). Source: docs/theory/model.md, section 5;
 // Eq. (4) with a time shift inside the cosine, Eq. (1) with opposite signs. T is the scalar of the kernel: one lane,
@@ -43,20 +44,22 @@ struct MeshParameters {
   T damping;                   ///< c
   T stiffness;                 ///< k_0
   std::size_t harmonics = 0;
-  std::vector<Row<T, N>> stiffness_cos, stiffness_sin;      ///< C_hi, S_hi; [harmonics][N]
-  Row<T, N> error_cos{}, error_sin{};                       ///< a_i, b_i
-  Row<T, N> error_mean{};                                   ///< e_0i [M-e]
-  std::vector<ShaftErrors<T, N>> shafts;                    ///< one for each member with errors of its own
-  std::shared_ptr<const PeriodicTrack<1>> stiffness_curve;  ///< in place of k_0 and harmonics; null without
-  std::shared_ptr<const FrictionTrack> friction;            ///< null without friction
-  Row<double, N> phase_cycles{};                            ///< mesh phase of planet i over 2 pi, at s = 0
-  bool in_phase = false;                                    ///< the same for all planets, to rounding
+  std::vector<Row<T, N>> stiffness_cos, stiffness_sin;          ///< C_hi, S_hi; [harmonics][N]
+  Row<T, N> error_cos{}, error_sin{};                           ///< a_1i, b_1i
+  std::vector<Row<T, N>> further_error_cos, further_error_sin;  ///< a_hi, b_hi, h = 2, 3, ...; as many of both
+  Row<T, N> error_mean{};                                       ///< e_0i [M-e]
+  std::vector<ShaftErrors<T, N>> shafts;                        ///< one for each member with errors of its own
+  std::shared_ptr<const PeriodicTrack<1>> stiffness_curve;      ///< in place of k_0 and harmonics; null without
+  std::shared_ptr<const PeriodicTrack<3>> error_curve;          ///< e and de/ds [M-e-curve]; null without
+  std::shared_ptr<const FrictionTrack> friction;                ///< null without friction
+  Row<double, N> phase_cycles{};                                ///< mesh phase of planet i over 2 pi, at s = 0
+  bool in_phase = false;                                        ///< the same for all planets, to rounding
 };
 
 /// Places of one kind of mesh in its tables while s is between two neighbouring breakpoints.
 template <std::size_t N>
 struct MeshPlaces {
-  std::array<TrackPlace, N> stiffness, friction;
+  std::array<TrackPlace, N> stiffness, friction, error;
 };
 
 template <std::size_t N>
@@ -75,14 +78,14 @@ struct Parameters {
   T inverse_inertia_s, inverse_inertia_r, inverse_inertia_c;
   Row<T, N> mass_p{}, inertia_p{}, inverse_mass_p{}, inverse_inertia_p{};  ///< of each planet
   T planets_mass;                                                          ///< sum M_p
-  T support_s, support_r, support_c;  ///< k of the translations
-  T damping_s, damping_r, damping_c;  ///< c of the translations
-  T torsion_r, torsion_c;             ///< k_ru, k_cu
+  T support_s, support_r, support_c;                                       ///< k of the translations
+  T damping_s, damping_r, damping_c;                                       ///< c of the translations
+  T torsion_r, torsion_c;                                                  ///< k_ru, k_cu
   T torsion_damping_r, torsion_damping_c;
   Row<T, N> bearing_p{}, bearing_damping_p{};  ///< k_p, c_p of each planet
   bool planet_gap = false;                     ///< is a clearance of the planets' bearings given?
   T planet_half_gap;                           ///< b_p
-  T sun_half_gap;                  ///< b_s
+  T sun_half_gap;                              ///< b_s
   gear::BearingLaw sun_law = gear::BearingLaw::linear_xy;
   T sun_hertz;                        ///< K of the Palmgren laws, force K d^(3/2)
   T drive, ring_drive, carrier_load;  ///< T_D / r_bs, T_r / r_br, T_c / r_c
@@ -91,8 +94,8 @@ struct Parameters {
   std::size_t torque_harmonics = 0;
   std::vector<T> input_cos, input_sin, output_cos, output_sin;  ///< over the mean torques; [torque_harmonics]
   MeshParameters<T, N> sun_planet, ring_planet;
-  T carrier_speed;                      ///< omega_c / omega_sn; 0 if the gyroscopic terms are off
-  Row<T, N> centrifugal{};              ///< M_p omega_c^2 r_c of each planet [M-cf]; 0 if it is left out
+  T carrier_speed;          ///< omega_c / omega_sn; 0 if the gyroscopic terms are off
+  Row<T, N> centrifugal{};  ///< M_p omega_c^2 r_c of each planet [M-cf]; 0 if it is left out
   gear::Boundary boundary = gear::Boundary::fixed_ring;
   bool gyroscopic_relative = false;     ///< planets' terms in X_i, Y_i with their reaction on the carrier [M-inv]
   bool gyroscopic_carrier_row = false;  ///< N M_p omega_c^2 u_c added to the carrier row
@@ -149,6 +152,8 @@ void for_each_constant(P& p, const F& f) {
       for (auto& harmonic : shaft.cosine) all(harmonic);
       for (auto& harmonic : shaft.sine) all(harmonic);
     }
+    for (auto& harmonic : m.further_error_cos) all(harmonic);
+    for (auto& harmonic : m.further_error_sin) all(harmonic);
   };
   const auto each = [&](auto&... constants) { (f(constants), ...); };
   f(p.omega);
@@ -187,7 +192,10 @@ template <class T, std::size_t N>
     to.harmonics = from.harmonics;
     to.stiffness_cos.resize(from.stiffness_cos.size());
     to.stiffness_sin.resize(from.stiffness_sin.size());
+    to.further_error_cos.resize(from.further_error_cos.size());
+    to.further_error_sin.resize(from.further_error_sin.size());
     to.stiffness_curve = from.stiffness_curve;
+    to.error_curve = from.error_curve;
     to.friction = from.friction;
     to.phase_cycles = from.phase_cycles;
     to.in_phase = from.in_phase;

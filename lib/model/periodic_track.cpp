@@ -147,6 +147,20 @@ PeriodicTrack<K> PeriodicTrack<K>::with_parameter_derivative(const std::array<co
   return track;
 }
 
+PeriodicTrack<3> with_slope(PeriodicTrack<3> track, double unit) {
+  for (const TrackSegment& segment : track.segments_) {
+    // Cubics are in powers of the grid's v, if the intervals are regular, else of the phase.
+    const double per_phase = unit * (segment.regular ? segment.slope : 1.0);
+    for (std::size_t k = segment.lo; k <= segment.hi(); ++k) {
+      Cubics<3>& c = track.cubics_[k];
+      for (std::size_t power = 0; power < 3; ++power)
+        c[power][1] = static_cast<double>(power + 1) * c[power + 1][0] * per_phase;
+      c[3][1] = 0.0;
+    }
+  }
+  return track;
+}
+
 template class PeriodicTrack<1>;
 template class PeriodicTrack<3>;
 

@@ -58,6 +58,14 @@ struct TrackRow {
 };
 
 template <std::size_t K>
+class PeriodicTrack;
+
+/// A track whose second function is, in the place of its rows, the derivative of the first one with respect to the
+/// phase, of a table without jumps: exactly that of the cubics. Three functions fill the registers that two would.
+/// @param unit  that the derivative is multiplied by
+[[nodiscard]] PeriodicTrack<3> with_slope(PeriodicTrack<3> track, double unit = 1.0);
+
+template <std::size_t K>
 class PeriodicTrack {
  public:
   PeriodicTrack() = default;
@@ -126,6 +134,8 @@ class PeriodicTrack {
   [[nodiscard]] const Cubics<K>* cubics(const TrackSegment& segment) const { return cubics_.data() + segment.lo; }
 
  private:
+  friend PeriodicTrack<3> with_slope(PeriodicTrack<3> track, double unit);
+
   template <class V>
   [[nodiscard]] std::size_t walked(const TrackSegment& segment, V x, std::size_t k) const {
     while (k > segment.lo && x < starts_[k]) --k;

@@ -1,9 +1,10 @@
 // What the mesh phase alone decides of the stage: errors, stiffness and friction of the meshes, before any state is
 // known.
 //
-//   e_i = e_c,i cos s + e_s,i sin s + e_0,i ,  e_i' = Omega (e_s,i cos s - e_c,i sin s)          [M-13], [M-14]
-//   and terms in s / teeth with a member's rotation                                              [M-shaft]
-//   k_i(s), A_i(s), B_i(s)  by harmonics or tables on the mesh's own phase s / 2 pi + turns_i    [M-27]
+//   e_i = sum_h [a_hi cos h s + b_hi sin h s] + e_0,i ,  e_i' = Omega sum_h h [b_hi cos h s - a_hi sin h s]   [M-e]
+//   and terms in s / teeth with a member's rotation                                                       [M-shaft]
+//   k_i(s), A_i(s), B_i(s)  by harmonics or tables on the mesh's own phase s / 2 pi + turns_i                 [M-27]
+//   e(s), e' = Omega de/ds  by a table, added to the harmonics                                           [M-e-curve]
 //
 // The slopes of a Runge-Kutta step are taken at phases that are known when the step begins; lanes make their
 // coefficients all at once, because this is mostly waiting for one's own results.
@@ -55,6 +56,12 @@ struct MeshCoefficients {
       : error(mesh.error_cos * basis.cosine[0] + mesh.error_sin * basis.sine[0] + mesh.error_mean),
         error_rate(p.omega * (mesh.error_sin * basis.cosine[0] - mesh.error_cos * basis.sine[0])),
         shared(is_lanes<P> && mesh.in_phase) {
+    for (std::size_t h = 1; h <= mesh.further_error_cos.size(); ++h) {
+      const Row<P, N>& a = mesh.further_error_cos[h - 1];
+      const Row<P, N>& b = mesh.further_error_sin[h - 1];
+      error += a * basis.cosine[h] + b * basis.sine[h];
+      error_rate += static_cast<double>(h + 1) * p.omega * (b * basis.cosine[h] - a * basis.sine[h]);
+    }
     if (mesh.stiffness_curve) return;
     if (is_lanes<P> && shared) {
       P k = mesh.stiffness;
@@ -82,10 +89,26 @@ struct MeshCoefficients {
     }
   }
 
-  /// What tables do; of lanes model/kernels/lane_phase_coefficients.hpp.
+  /// Adds the value of the table of the error, e and de/ds.
+  template <class R>
+  void add_error(std::size_t planet, const R& values, const P& omega) {
+    error.set(planet, error[planet] + values[0]);
+    error_rate.set(planet, error_rate[planet] + omega * values[1]);
+  }
+
+  /// What the table of the error does.
   /// @param places  those of the current segment
-  void interpolate(const MeshParameters<P, N>& mesh, const MeshPlaces<N>& places, const P& s) {
+  void interpolate_error(const P& omega, const MeshParameters<P, N>& mesh, const MeshPlaces<N>& places, const P& s) {
+    if (mesh.error_curve)
+      for (std::size_t i = 0; i < N; ++i)
+        add_error(i, mesh.error_curve->at(places.error[i], s * (0.5 * std::numbers::inv_pi) + mesh.phase_cycles[i]),
+                  omega);
+  }
+
+  /// What all tables do; of lanes model/kernels/lane_phase_coefficients.hpp.
+  void interpolate(const P& omega, const MeshParameters<P, N>& mesh, const MeshPlaces<N>& places, const P& s) {
     const auto own_phase = [&](std::size_t i) { return s * (0.5 * std::numbers::inv_pi) + mesh.phase_cycles[i]; };
+    interpolate_error(omega, mesh, places, s);
     if (mesh.stiffness_curve)
       stiffness =
           Row<P, N>::of([&](std::size_t i) { return mesh.stiffness_curve->at(places.stiffness[i], own_phase(i))[0]; });
@@ -118,7 +141,11 @@ struct MeshCoefficients {
 
 template <class P, std::size_t N>
 [[nodiscard]] std::size_t harmonics_of(const Parameters<P, N>& p) {
-  return std::max({p.sun_planet.harmonics, p.ring_planet.harmonics, p.torque_harmonics});
+  const auto of_errors = [](const auto& mesh) {
+    return mesh.further_error_cos.empty() ? 0 : mesh.further_error_cos.size() + 1;
+  };
+  return std::max({p.sun_planet.harmonics, p.ring_planet.harmonics, p.torque_harmonics, of_errors(p.sun_planet),
+                   of_errors(p.ring_planet)});
 }
 
 /// Torques on gear 1 and gear 2 of a pair over their means [M-pair].
@@ -161,8 +188,8 @@ struct PhaseCoefficients {
   /// @param segment  of p, that of s
   PhaseCoefficients(const Parameters<P, N>& p, std::size_t segment, const P& s)
       : PhaseCoefficients(p, HarmonicBasis<P>(sine_cosine(s), harmonics_of(p)), s) {
-    sun_planet.interpolate(p.sun_planet, p.segments[segment].sun_planet, s);
-    ring_planet.interpolate(p.ring_planet, p.segments[segment].ring_planet, s);
+    sun_planet.interpolate(p.omega, p.sun_planet, p.segments[segment].sun_planet, s);
+    ring_planet.interpolate(p.omega, p.ring_planet, p.segments[segment].ring_planet, s);
   }
 };
 

@@ -96,6 +96,15 @@ std::vector<double> linear_equilibrium(Layout layout, Parameters<double, N> p) {
   const std::size_t n = degrees_of_freedom(layout, N);
   // delta = b + F/k on the drive flank is the stage without gaps whose errors are larger by b.
   const auto linear = [](MeshParameters<double, N>& mesh) {
+    if (mesh.error_curve)
+      for (std::size_t i = 0; i < N; ++i) {
+        const double phase = mesh.phase_cycles[i];
+        mesh.error_cos[i] += mesh.error_curve->at(mesh.error_curve->place(phase), phase)[0];
+      }
+    mesh.error_curve = nullptr;
+    for (const Row<double, N>& harmonic : mesh.further_error_cos) mesh.error_cos += harmonic;
+    mesh.further_error_cos.clear();
+    mesh.further_error_sin.clear();
     mesh.harmonics = 0;
     mesh.stiffness_curve = nullptr;
     mesh.friction = nullptr;

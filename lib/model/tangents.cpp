@@ -73,11 +73,14 @@ ParameterFunction make_parameter_derivative(Layout layout, const Parameters<doub
           mesh.friction->with_parameter_derivative({of(near[0]).friction.get(), of(near[1]).friction.get(),
                                                     of(near[2]).friction.get(), of(near[3]).friction.get()},
                                                    h));
-    if (mesh.stiffness_curve)
-      out.stiffness_curve = std::make_shared<PeriodicTrack<1>>(mesh.stiffness_curve->with_parameter_derivative(
-          {of(near[0]).stiffness_curve.get(), of(near[1]).stiffness_curve.get(), of(near[2]).stiffness_curve.get(),
-           of(near[3]).stiffness_curve.get()},
-          h));
+    const auto curve = [&](auto member) {
+      using Track = std::remove_const_t<typename std::decay_t<decltype(mesh.*member)>::element_type>;
+      const auto near_by = [&](std::size_t k) { return (of(near[k]).*member).get(); };
+      return std::make_shared<Track>(
+          (mesh.*member)->with_parameter_derivative({near_by(0), near_by(1), near_by(2), near_by(3)}, h));
+    };
+    if (mesh.stiffness_curve) out.stiffness_curve = curve(&MeshParameters<double, N>::stiffness_curve);
+    if (mesh.error_curve) out.error_curve = curve(&MeshParameters<double, N>::error_curve);
   };
   tables(
       p.sun_planet, dual->sun_planet, [](const auto& q) -> const auto& { return q.sun_planet; });

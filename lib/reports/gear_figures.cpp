@@ -208,6 +208,64 @@ GearFigure friction_ratio_figure(const fs::path& folder, const gear::Stage& stag
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
+// Static transmission error
+
+std::string titled_error(const gear::Stage& stage, const TransmissionErrorTable& table) {
+  return titled(stage,
+                fmt::format("static transmission error, {} mesh", table.mesh == "sp" ? "sun-planet" : "ring-planet"));
+}
+
+GearFigure error_over_torque(const fs::path& folder, const TransmissionErrorTable& table, const gear::Stage& stage) {
+  figures::Sketch sketch("static_transmission_error_" + table.mesh);
+  figures::FigureRange y;
+  const auto add = [&](const auto& value, const std::string& style, std::string_view title) {
+    Curve curve;
+    for (const TransmissionErrorRow& row : table.rows) {
+      curve.push_back({row.torque_Nm, value(row)});
+      y.include(curve.back()[1]);
+    }
+    sketch.add(curve, style, title);
+  };
+  add([](const TransmissionErrorRow& r) { return r.error.peak_to_peak_um; }, figures::solid(blue), "peak to peak");
+  add([](const TransmissionErrorRow& r) { return r.model.peak_to_peak_um; }, figures::dashed(light_blue, 2, "(8,5)"),
+      "peak to peak, model");
+  add([](const TransmissionErrorRow& r) { return r.error.harmonic_um[0]; }, figures::solid(red), "harmonic 1");
+  add([](const TransmissionErrorRow& r) { return r.error.harmonic_um[1]; }, figures::dashed(green, 2, "(14,6)"),
+      "harmonic 2");
+  add([](const TransmissionErrorRow& r) { return r.error.harmonic_um[2]; }, figures::dashed(ochre, 2, "(4,4)"),
+      "harmonic 3");
+  figures::FigureRange range = y.widened(figures::figure_margin);
+  range.low = 0.0;
+  return draw(sketch, folder,
+              {titled_error(stage, table), "Torque on the sun  T_D  [N m]", "Static transmission error  [μm]"},
+              {0.0, table.rows.back().torque_Nm}, range, {{table.design_torque_Nm, "design torque"}});
+}
+
+GearFigure error_over_phase(const fs::path& folder, const TransmissionErrorTable& table, const gear::Stage& stage) {
+  figures::Sketch sketch("transmission_error_phase_" + table.mesh);
+  constexpr int samples = 400;
+  figures::FigureRange y;
+  const std::array<std::pair<double, std::string>, 5> curves = {{{0.0, figures::dashed(dark_grey, 1.5, "(10,7)")},
+                                                                 {0.5, figures::solid(light_blue)},
+                                                                 {1.0, figures::solid(blue, 3)},
+                                                                 {1.5, figures::solid(ochre)},
+                                                                 {2.0, figures::solid(red)}}};
+  for (const auto& [share, style] : curves) {
+    Curve curve;
+    for (int i = 0; i <= periods_shown * samples; ++i) {
+      const double phase = static_cast<double>(i) / samples;
+      curve.push_back(
+          {phase, table.contact.transmission_error_um(phase - std::floor(phase), share * table.contact.force_N())});
+      y.include(curve.back()[1]);
+    }
+    sketch.add(curve, style, share == 0.0 ? "no load" : fmt::format("{:.4g} N m", share * table.design_torque_Nm));
+  }
+  return draw(sketch, folder,
+              {titled_error(stage, table), std::string(phase_label), "Static transmission error  δ  [μm]"},
+              {0.0, periods_shown}, y.widened(figures::figure_margin));
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
 // Bearings
 
 struct NamedBearing {
@@ -839,6 +897,17 @@ std::vector<GearFigure> draw_gear_set_figures(const fs::path& folder, const gear
                                  {"teeth_sp", "sun", "planet", "sp", blue, red, "#d5dcee", "#f6ddd3"}));
   figures.push_back(teeth_figure(folder, stage, set.ring_planet.pair,
                                  {"teeth_rp", "planet", "ring", "rp", red, purple, "#f6ddd3", "#e6dcec"}));
+  return figures;
+}
+
+std::vector<GearFigure> draw_transmission_error_figures(const fs::path& folder,
+                                                        const std::vector<TransmissionErrorTable>& tables,
+                                                        const gear::Stage& stage) {
+  std::vector<GearFigure> figures;
+  for (const TransmissionErrorTable& table : tables) {
+    figures.push_back(error_over_torque(folder, table, stage));
+    figures.push_back(error_over_phase(folder, table, stage));
+  }
   return figures;
 }
 

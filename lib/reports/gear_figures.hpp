@@ -22,6 +22,7 @@
 #include "gear/ehl_friction.hpp"
 #include "gear/gear_set.hpp"
 #include "gear/stage.hpp"
+#include "reports/transmission_error_report.hpp"
 
 namespace epicyclic::reports {
 
@@ -39,6 +40,12 @@ struct GearFigure {
 /// @throws OutputError when data or script cannot be written
 std::vector<GearFigure> draw_gear_set_figures(const std::filesystem::path& folder, const gear::GearSet& set,
                                               const gear::MeshLoad& load, const gear::Stage& stage);
+
+/// Peak-to-peak and harmonics of the static transmission error over the torque, and the error over the mesh phase at
+/// several torques, of each mesh.
+[[nodiscard]] std::vector<GearFigure> draw_transmission_error_figures(const std::filesystem::path& folder,
+                                                                      const std::vector<TransmissionErrorTable>& tables,
+                                                                      const gear::Stage& stage);
 
 /// Draws campbell and mode_shapes of any stage, lumped ones included.
 /// @param stage  passes gear::problems_for_modes()

@@ -18,6 +18,7 @@
 #include "reports/gear_figures.hpp"
 #include "reports/gear_report.hpp"
 #include "reports/markdown.hpp"
+#include "reports/transmission_error_report.hpp"
 
 namespace epicyclic::reports {
 
@@ -319,6 +320,13 @@ GearOutput write_gear_output(const std::filesystem::path& path, const input::Loa
       folder.write("friction_ratios.csv", friction_ratios_csv(both, *set.catalogue.lubrication, load));
     }
     note_figures(out, draw_gear_set_figures(figures, set, load, stage));
+    if (const auto design = gear::design_torque_Nm(stage); design || moves) {
+      const std::vector<TransmissionErrorTable> errors =
+          transmission_errors(set, design ? *design : std::abs(gear::torques(stage, mesh_frequency).sun));
+      folder.write("static_transmission_error.csv", transmission_error_csv(errors));
+      page.transmission_error = transmission_error_section(errors, set.catalogue.is_modified());
+      note_figures(out, draw_transmission_error_figures(figures, errors, stage));
+    }
   }
   for (Quantity& q : operating_quantities(stage, input.study.mesh_frequency_ratio))
     page.quantities.push_back(std::move(q));

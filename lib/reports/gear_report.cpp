@@ -421,8 +421,14 @@ std::string error_words(const gear::Stage& stage, double mesh_frequency_ratio) {
   const auto of = [&](const char* name, const gear::Mesh& mesh) {
     const double amplitude = std::ranges::max(mesh.error_amplitude_um);
     const double deflection = gear::static_deflection_um(mesh, load);
-    return fmt::format("{}{:.3g} um on a static deflection of {:.3g} um ({:.3g} times)", name, amplitude, deflection,
-                       amplitude / deflection);
+    std::string further;
+    if (mesh.error_cos_um || mesh.error_sin_um) further += ", and its harmonics";
+    if (mesh.error_curve) {
+      const auto [least, greatest] = std::ranges::minmax(mesh.error_curve->error_um);
+      further += fmt::format(", and a curve of {:.3g} um from peak to peak", greatest - least);
+    }
+    return fmt::format("{}{:.3g} um on a static deflection of {:.3g} um ({:.3g} times){}", name, amplitude, deflection,
+                       amplitude / deflection, further);
   };
   const std::string amplitude = "amplitude of the transmission error: ";
   if (stage.is_pair()) return amplitude + of("", stage.sun_planet_mesh);
@@ -484,6 +490,7 @@ std::string gear_page(const GearPage& page, const input::LoadedInput& input, con
     text += "\n## Figures\n\n";
     for (const std::string& stem : page.figures) text += fmt::format("![{0}](figures/{0}.png)\n", stem);
   }
+  text += page.transmission_error;
   std::string group;
   for (const Quantity& q : page.quantities) {
     if (q.group != group) {

@@ -55,6 +55,7 @@ struct GearPage {
   std::vector<std::string> figures;      ///< stems in the folder figures
   std::vector<std::string> files;        ///< data files beside the page
   std::vector<ModeRange> mode_ranges{};  ///< of each mode; empty where no estimated value has a range
+  std::string transmission_error{};      ///< its section; empty without a load
 };
 
 /// The page: verdicts, warnings, quantities, modes, all values of the resolved input with their origins, figures.

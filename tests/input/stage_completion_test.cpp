@@ -1,6 +1,8 @@
 // Lumped values from catalogue data: what is given stands, what is computed follows the catalogue.
 #include "input/stage_completion.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -10,6 +12,8 @@
 #include "gear/gear_set.hpp"
 #include "input/study_input.hpp"
 #include "input/study_model.hpp"
+#include "model/dynamic_model.hpp"
+#include "model/friction_track.hpp"
 #include "temporary_folder.hpp"
 
 namespace epicyclic::input::stage_completion_test {
@@ -245,6 +249,130 @@ TEST(StageCompletion, TablesAreAsFineAsTheirToleranceAsksAndSayWhatTheyReach) {
     EXPECT_EQ(stage.sun_planet_mesh.stiffness_curve->interpolation, Interpolation::monotone);
     EXPECT_EQ(stage.ring_planet_mesh.stiffness_curve->interpolation, Interpolation::smooth);
   }
+}
+
+const std::vector<std::string> relieved = {
+    R"(/catalogue/sun/tip_relief={"amount_um": 12, "start_roll_mm": 20.5})",
+    R"(/catalogue/planet/tip_relief={"amount_um": 15, "start_diameter_mm": 71, "shape": "parabolic"})",
+    "/catalogue/mesh_stiffness/form=curve", "/catalogue/mesh_stiffness/design_torque_Nm=900"};
+
+std::vector<std::string> with(std::vector<std::string> sets, const std::string& more) {
+  sets.push_back(more);
+  return sets;
+}
+
+TEST(StageCompletion, ModifiedFlanksHaveTheTransmissionErrorOfTheirContact) {
+  const LoadedInput input = loaded(relieved);
+  const gear::Stage& stage = input.study.stage;
+  const gear::LoadedContacts contacts = gear::loaded_contacts(gear::make_gear_set(stage), 900.0);
+  for (const auto& [mesh, contact] : {std::pair(&stage.sun_planet_mesh, &contacts.sun_planet),
+                                      std::pair(&stage.ring_planet_mesh, &contacts.ring_planet)}) {
+    ASSERT_TRUE(mesh->error_curve.has_value());
+    const auto error = model::error_track(*mesh->error_curve, 1.0);
+    const auto stiffness = model::stiffness_track(*mesh->stiffness_curve, 1e-6);
+    for (const double phase : {0.013, 0.2, 0.31, 0.5, 0.77, 0.96}) {
+      const double delta = contact->transmission_error_um(phase, contact->force_N());
+      const double e = error.at(error.place(phase), phase)[0];
+      const double k = stiffness.at(stiffness.place(phase), phase)[0] * 1e-12;  // [N/um]
+      EXPECT_NEAR(e, contact->no_load_error_um(phase), 1e-7);
+      EXPECT_NEAR(e + contact->force_N() / k, delta, 1e-7) << "exact at the design load";
+    }
+  }
+}
+
+TEST(StageCompletion, AModifiedStageResolvesToItselfAndFollowsItsTorque) {
+  const TemporaryFolder folder;
+  const json resolved = loaded(relieved).resolved;
+  std::ofstream(folder / "stage.json") << resolved.dump();
+  EXPECT_EQ(load_input(folder / "stage.json").resolved, resolved);
+  // Without a design torque the torque of the load counts, also where a study changes it.
+  std::vector<std::string> by_load(relieved.begin(), relieved.end() - 1);
+  by_load.push_back(R"(/load={"torque_Nm": 900})");
+  const LoadedInput input = loaded(by_load);
+  EXPECT_EQ(input.study.stage.sun_planet_mesh.stiffness_N_per_m,
+            loaded(relieved).study.stage.sun_planet_mesh.stiffness_N_per_m);
+  EXPECT_NE(input.with_value("/load/torque_Nm", 1200.0).stage.sun_planet_mesh.stiffness_N_per_m,
+            input.study.stage.sun_planet_mesh.stiffness_N_per_m);
+  EXPECT_EQ(loaded(relieved).with_value("/load/power_kW", 300.0).stage.sun_planet_mesh.stiffness_N_per_m,
+            loaded(relieved).study.stage.sun_planet_mesh.stiffness_N_per_m);
+}
+
+TEST(StageCompletion, ReliefsThatCannotBeAreProblemsOfTheirMember) {
+  const std::vector<std::string> without_torque(relieved.begin(), relieved.end() - 1);
+  EXPECT_TRUE(any_has(messages(without_torque), "/catalogue/mesh_stiffness/design_torque_Nm: is missing; relief"));
+  EXPECT_TRUE(any_has(messages(with(relieved, "/catalogue/sun/tip_relief/start_roll_mm=40")),
+                      "/catalogue/sun: the tip relief starts at a length of roll of 40"));
+  EXPECT_TRUE(
+      any_has(messages(with(relieved, "/catalogue/planet/tip_relief/start_diameter_mm=20")), "inside the base circle"));
+  EXPECT_TRUE(any_has(messages(with(relieved, "/catalogue/sun/tip_relief/start_diameter_mm=70")), "start_roll_mm"));
+  EXPECT_TRUE(any_has(messages(with(relieved, "/catalogue/sun/tip_relief/amount_um=-1")), "amount_um"));
+  EXPECT_TRUE(any_has(messages(with(relieved, "/catalogue/sun/tip_relief/shape=cubic")), "shape"));
+}
+
+TEST(StageCompletion, RemovedReliefLeavesNothingBehind) {
+  const TemporaryFolder folder;
+  json resolved = loaded(relieved).resolved;
+  for (const char* member : {"sun", "planet"}) resolved["catalogue"][member].erase("tip_relief");
+  std::ofstream(folder / "stage.json") << resolved.dump();
+  const gear::Stage stage = load_input(folder / "stage.json").study.stage;
+  EXPECT_FALSE(stage.sun_planet_mesh.error_curve.has_value());
+  EXPECT_EQ(
+      stage.sun_planet_mesh.stiffness_curve->stiffness_N_per_m,
+      loaded({"/catalogue/mesh_stiffness/form=curve"}).study.stage.sun_planet_mesh.stiffness_curve->stiffness_N_per_m);
+}
+
+TEST(StageCompletion, GivenErrorsReplaceTheAmplitudeOfAGrade) {
+  const gear::Stage stage = loaded({"/lumped/sun_planet_mesh/error_cos_um=[1, 2]"}).study.stage;
+  EXPECT_EQ(stage.sun_planet_mesh.error_amplitude_um, std::vector{0.0});
+  EXPECT_GT(stage.ring_planet_mesh.error_amplitude_um[0], 0.0);
+}
+
+// A file with the curve of the energy method is the catalogue's path, to the error of its interpolation.
+TEST(StageCompletion, AStiffnessFileOfTheEnergyMethodGivesTheQuasiStaticStatesOfTheCatalogue) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> moves = {"/boundary=fixed_ring", "/lumped/ring/torsional_support_N_per_m=1e9",
+                                          "/catalogue/mesh_stiffness/form=curve"};
+  const LoadedInput catalogue = loaded(moves);
+  const gear::GearSet set = gear::make_gear_set(catalogue.study.stage);
+  const auto states_of = [](const gear::Stage& stage) {
+    const model::DynamicModel m = model::make_dynamic_model(stage, model::scales_of(stage), 1.0, {});
+    std::vector<double> phases;
+    for (int k = 0; k < 60; ++k) phases.push_back(0.1 * k + 0.03);
+    std::vector<double> deflections;
+    model::MeshDeflections d;
+    const auto states = m.quasi_static_states(phases);
+    for (std::size_t k = 0; k < phases.size(); ++k) {
+      m.deflections(phases[k], states[k].data(), d);
+      deflections.push_back(d.sun_planet[0] - m.sun_planet_half_gap);
+    }
+    return deflections;
+  };
+  const std::vector<double> exact = states_of(catalogue.study.stage);
+  const auto worst = [&](int rows) {
+    // Rows beside the breakpoints from the energy method, at both sides of jumps.
+    std::string text = "phase,k\n";
+    const auto row = [&](double phase, double inside) {
+      text += number_text(phase) + "," + number_text(set.sun_planet.stiffness(phase, inside)) + "\n";
+    };
+    const std::vector<double> breaks = set.sun_planet.breakpoints();
+    const double rest = breaks[1];
+    text += "0," + number_text(set.sun_planet.stiffness(1.0, 0.5 * (1.0 + rest))) + "\n";
+    for (int k = 0; k <= rows; ++k) row(rest * k / rows, 0.5 * rest);
+    for (int k = 0; k < rows; ++k) row(rest + (1.0 - rest) * k / rows, 0.5 * (1.0 + rest));
+    std::ofstream(folder / "k.csv") << text;
+    std::vector<std::string> sets = moves;
+    sets.push_back(R"(/lumped/sun_planet_mesh/stiffness_curve={"file": ")" + (folder / "k.csv").string() +
+                   R"(", "column": "k", "interpolation": "smooth"})");
+    const std::vector<double> of_file = states_of(loaded(sets).study.stage);
+    double off = 0.0;
+    for (std::size_t k = 0; k < exact.size(); ++k) off = std::max(off, std::abs(of_file[k] / exact[k] - 1.0));
+    return off;
+  };
+  const double coarse = worst(8);
+  const double fine = worst(32);
+  EXPECT_LT(fine, 1e-7);
+  EXPECT_LT(coarse, 1e-4);
+  EXPECT_GT(coarse / fine, 16.0) << "the order of the interpolation";
 }
 
 TEST(StageCompletion, WithoutLubricationThereIsNoFriction) {

@@ -186,6 +186,75 @@ TEST_F(StudyInput, TakesAnInlineStage) {
 }
 
 // Editors find the schema by this key of a file.
+TEST_F(StudyInput, CurvesFromFilesHaveTheirRows) {
+  fs::create_directory(folder / "data");
+  put_file(folder / "data" / "k.csv", "phase,other,stiffness_N_per_m\r\n0,1,1e9\r\n0.3,2, 1.4e9\r\n0.3,3,1.1e9\r\n");
+  put_file(folder / "e.csv", "phase,error_um,also\n0,1,7\n0.5,-2,8\n");
+  json stage = json::parse(text_of(bad_inputs / "stage.json"));
+  json& mesh = stage["lumped"]["sun_planet_mesh"];
+  for (const char* key : {"stiffness_N_per_m", "stiffness_cos_N_per_m", "stiffness_sin_N_per_m"}) {
+    mesh.erase(key);
+    if (mesh.contains("origin") && mesh["origin"].is_object()) mesh["origin"].erase(key);
+  }
+  mesh["stiffness_curve"] = {{"file", "data/k.csv"}, {"interpolation", "linear"}};
+  put_file(folder / "stage.json", stage.dump());
+  const LoadedInput input =
+      load({R"(/stage/lumped/ring_planet_mesh/error_curve={"file": "e.csv", "column": "also", "breakpoints": [0]})"});
+  const gear::Mesh& sun = input.study.stage.sun_planet_mesh;
+  ASSERT_TRUE(sun.stiffness_curve.has_value());
+  EXPECT_EQ(sun.stiffness_curve->phase, (std::vector{0.0, 0.3, 0.3}));
+  EXPECT_EQ(sun.stiffness_curve->stiffness_N_per_m, (std::vector{1e9, 1.4e9, 1.1e9}));
+  EXPECT_EQ(sun.stiffness_curve->breakpoints, std::vector{0.3}) << "a phase that stands twice";
+  EXPECT_NEAR(sun.stiffness_N_per_m, 0.3 * 1.2e9 + 0.7 * 1.05e9, 1.0) << "the mean of the curve";
+  const gear::Mesh& ring = input.study.stage.ring_planet_mesh;
+  ASSERT_TRUE(ring.error_curve.has_value());
+  EXPECT_EQ(ring.error_curve->error_um, (std::vector{7.0, 8.0}));
+  EXPECT_EQ(ring.error_curve->breakpoints, std::vector{0.0});
+  const json& curve = input.resolved["stage"]["lumped"]["sun_planet_mesh"]["stiffness_curve"];
+  EXPECT_FALSE(curve.contains("file"));
+  EXPECT_EQ(curve["origin"]["stiffness_N_per_m"], "table: data/k.csv");
+  // The resolved input needs no file, and resolves to itself.
+  fs::remove_all(folder / "data");
+  fs::remove(folder / "e.csv");
+  EXPECT_EQ(reload(input.resolved).resolved, input.resolved);
+}
+
+TEST_F(StudyInput, FilesOfCurvesThatAreWrongAreRefusedAtTheirPlace) {
+  const auto message = [&](const std::string& text, const std::string& more = "") {
+    put_file(folder / "e.csv", text);
+    try {
+      (void)load({R"(/stage/lumped/sun_planet_mesh/error_curve={"file": "e.csv")" + more + "}"});
+    } catch (const InputProblems& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const auto expect = [](const std::string& all, const std::string& part) {
+    EXPECT_NE(all.find(part), std::string::npos) << all;
+  };
+  EXPECT_EQ(message("phase,error_um\n0,1\n0.5,2\n"), "accepted");
+  expect(message("phase,um\n0,1\n0.5,2\n"),
+         "/stage/lumped/sun_planet_mesh/error_curve/file: the file e.csv: has no "
+         "column 'error_um', but phase, um");
+  expect(message("phase,error_um\n0,1\n0.5,x\n"), "row 2: 'x' in the column 'error_um' is no number");
+  expect(message("phase,error_um\n0,1\n0.5,nan\n"), "is no number");
+  expect(message("phase,error_um\n0,1\n0.5\n"), "is no table");
+  expect(message("phase,error_um\n0,1\n1.5,2\n"), "/stage/lumped/sun_planet_mesh/error_curve/phase/1");
+  expect(message("phase,error_um\n0,1\n0.5,2\n0.5,3\n"), "must not jump");
+  expect(message("phase,error_um\n0,1\n"), "/stage/lumped/sun_planet_mesh/error_curve/phase");
+  expect(message("phase,error_um\n0,1\n0.5,2\n", R"(, "phase": [0, 0.5])"), "file");
+  fs::remove(folder / "e.csv");
+  fs::create_directory(folder / "e.csv");
+  try {
+    (void)load({R"(/stage/lumped/sun_planet_mesh/error_curve={"file": "e.csv"})"});
+    ADD_FAILURE() << "a folder is accepted";
+  } catch (const InputProblems& error) {
+    expect(error.what(), "is a directory, not a CSV file");
+  }
+  for (const char* file : {R"({"file": "none.csv"})", R"({"file": 3})", R"({"column": "x"})"})
+    EXPECT_THROW((void)load({std::string("/stage/lumped/sun_planet_mesh/error_curve=") + file}), InputProblems) << file;
+}
+
 TEST_F(StudyInput, TheKeyOfTheSchemaChangesNothing) {
   const json without = load().resolved;
   auto study = json::parse(text_of(bad_inputs / "study.json"));

@@ -56,6 +56,7 @@ TEST(Drive, BackwardIsTimeThatRunsBackward) {
   std::uniform_real_distribution<double> phase(0.0, two_pi);
   for (const gear::Stage& given :
        {problems::with_moving_stiffness(fixed), problems::with_stiffness_curve(fixed), problems::rigid_ring(fixed),
+        problems::with_error_curve(problems::with_stiffness_curve(fixed)),
         problems::with_moving_stiffness(problems::with_unequal_angles(fixed)),
         problems::with_moving_stiffness(problems::star(fixed))}) {
     gear::Stage stage = conservative(given);

@@ -33,7 +33,13 @@ std::vector<gear::Stage> stages() {
   radial.sun_bearing.law = gear::BearingLaw::linear_radial;
   radial.sun_bearing.clearance_half_um = 3.0;
   const gear::Stage curve = problems::with_stiffness_curve(problems::star(base));
-  return {base, problems::rigid_ring(base), radial, curve, problems::with_teeth(base, 28, 26, 80, 3)};
+  return {base,
+          problems::rigid_ring(base),
+          radial,
+          curve,
+          problems::with_teeth(base, 28, 26, 80, 3),
+          problems::with_error_curve(problems::with_teeth(base, 28, 26, 80, 3)),
+          problems::with_error_curve(curve)};
 }
 
 TEST(StageOutputsAt, AreTheForcesAndDeflectionsOfEachInstant) {

@@ -57,6 +57,7 @@ std::vector<gear::Stage> frictionless() {
           rigid_ring(moving),
           star(moving),
           with_stiffness_curve(moving),
+          with_error_curve(moving),
           with_unequal_angles(moving)};
 }
 

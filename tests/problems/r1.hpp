@@ -110,6 +110,18 @@ inline gear::Stage with_stiffness_curve(gear::Stage s) {
   return s;
 }
 
+/// Harmonics of the error and a curve with a kink on both meshes, its rows even in one part and not in the other.
+inline gear::Stage with_error_curve(gear::Stage s) {
+  double sign = 1.0;
+  for (gear::Mesh* mesh : {&s.sun_planet_mesh, &s.ring_planet_mesh}) {
+    mesh->error_cos_um = {sign * 1.5, -0.7, 0.4};
+    mesh->error_sin_um = {0.8, sign * 1.1};
+    mesh->error_curve = gear::ErrorCurve{{0.0, 0.1, 0.2, 0.3, 0.45, 0.8}, {0.0, 2.0, 1.0, 0.5, 3.0, 1.5}, {0.0, 0.3}};
+    sign = -1.0;
+  }
+  return s;
+}
+
 /// Fourier stiffness of docs/theory/parameters.md, section 3, with its means.
 inline gear::Stage with_moving_stiffness(gear::Stage s) {
   s.sun_planet_mesh.stiffness_N_per_m = 1.2589e9;

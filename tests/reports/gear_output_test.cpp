@@ -75,8 +75,9 @@ TemporaryFolder* GearOutputOfTheStage::folder = nullptr;
 GearOutput* GearOutputOfTheStage::output = nullptr;
 
 TEST_F(GearOutputOfTheStage, HasEachFileAndFigure) {
-  for (const char* file : {"modes.csv", "mode_shapes.csv", "campbell.csv", "geometry.csv", "stiffness.csv",
-                           "load_sharing.csv", "friction.csv", "friction_ratios.csv", "bearings.csv", "gear.md"})
+  for (const char* file :
+       {"modes.csv", "mode_shapes.csv", "campbell.csv", "geometry.csv", "stiffness.csv", "load_sharing.csv",
+        "friction.csv", "friction_ratios.csv", "static_transmission_error.csv", "bearings.csv", "gear.md"})
     EXPECT_TRUE(std::filesystem::exists(*folder / file)) << file;
   EXPECT_TRUE(output->undrawn.empty());
   for (const std::string& stem : output->figures)

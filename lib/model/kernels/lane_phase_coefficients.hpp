@@ -22,8 +22,8 @@ inline constexpr std::size_t slopes_together = 8;
 
 /// Coefficients from the tables of one kind of mesh, for `count` slopes.
 template <std::size_t N, std::size_t W>
-void interpolate(const MeshParameters<Lanes<W>, N>& mesh, const LaneMeshPlaces<N, W>& places, std::size_t count,
-                 const Lanes<W>* s, PhaseCoefficients<Lanes<W>, N>* phase_coefficients,
+void interpolate(const Lanes<W>& omega, const MeshParameters<Lanes<W>, N>& mesh, const LaneMeshPlaces<N, W>& places,
+                 std::size_t count, const Lanes<W>* s, PhaseCoefficients<Lanes<W>, N>* phase_coefficients,
                  MeshCoefficients<Lanes<W>, N> PhaseCoefficients<Lanes<W>, N>::*kind) {
   const auto each = [&](std::size_t planet, const auto& place, const auto& take) {
     std::array<LaneInterval<W>, slopes_together> found;
@@ -41,6 +41,20 @@ void interpolate(const MeshParameters<Lanes<W>, N>& mesh, const LaneMeshPlaces<N
         now.moment_driven.set(i, values[2]);
       });
   }
+  // Errors are each planet's own; planets that mesh in phase have one value of the table.
+  if (mesh.error_curve)
+    for (std::size_t i = 0; i < N; ++i)
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto& place = places.error[i];
+        const LaneInterval<W> found = place.find(s[k] * (0.5 * std::numbers::inv_pi) + mesh.phase_cycles[i]);
+        std::array<Lanes<W>, 2> values{Lanes<W>(0.0), Lanes<W>(0.0)};
+        for (std::size_t lane = 0; lane < W; ++lane) {
+          const Row<double, 3> row = place.in_lane(lane, found);
+          values[0].set(lane, row[0]);
+          values[1].set(lane, row[1]);
+        }
+        (phase_coefficients[k].*kind).add_error(i, values, omega);
+      }
 }
 
 /// @param s         phases of `count` slopes, all in the lanes' segments
@@ -57,10 +71,10 @@ void make_phase_coefficients(const LaneParameters<N, W>& p, std::size_t count, c
     for (std::size_t k = 0; k < together; ++k)
       new (phase_coefficients + first + k)
           PhaseCoefficients<Lanes<W>, N>(constants, HarmonicBasis<Lanes<W>>(angle[k], harmonics), s[first + k]);
-    interpolate(constants.sun_planet, p.segment().sun_planet, together, s + first, phase_coefficients + first,
-                &PhaseCoefficients<Lanes<W>, N>::sun_planet);
-    interpolate(constants.ring_planet, p.segment().ring_planet, together, s + first, phase_coefficients + first,
-                &PhaseCoefficients<Lanes<W>, N>::ring_planet);
+    interpolate(constants.omega, constants.sun_planet, p.segment().sun_planet, together, s + first,
+                phase_coefficients + first, &PhaseCoefficients<Lanes<W>, N>::sun_planet);
+    interpolate(constants.omega, constants.ring_planet, p.segment().ring_planet, together, s + first,
+                phase_coefficients + first, &PhaseCoefficients<Lanes<W>, N>::ring_planet);
   }
 }
 
