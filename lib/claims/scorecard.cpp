@@ -345,22 +345,29 @@ std::vector<const Condition*> conditions_of(const Scorecard& card) {
 
 std::string style_of_data() { return figures::dots(figures::ink::red, 1.4, 6); }
 
-/// A panel for sets of places. Its title is inside, at the top: of frequencies, which rise, at the left.
-void add_panel(figures::Sketch& sketch, const ClaimPanel& panel, const std::string& symbol,
-               const std::vector<std::vector<std::array<double, 2>>>& sets, const figures::FigureRange& x) {
+/// A panel for sets of places, with its title inside at the top.
+/// @returns the axis
+figures::FigureRange add_panel(figures::Sketch& sketch, const ClaimPanel& panel, const std::string& symbol,
+                               const std::vector<std::vector<std::array<double, 2>>>& sets,
+                               const figures::FigureRange& x) {
   figures::FigureRange y;
   for (const auto& set : sets)
     for (const auto& row : set) y.include(row[1]);
+  // What differs by rounding alone appears as one value.
+  constexpr double rounding = 1e-6;
+  constexpr double around_one = 0.01;
+  const double middle = 0.5 * (y.low + y.high);
+  if (!y.empty() && y.high - y.low < rounding * std::abs(middle))
+    for (const double side : {-around_one, around_one}) y.include(middle * (1.0 + side));
   const figures::FigureRange axis = y.widened(figures::figure_margin);
   sketch.panel(symbol, axis);
   if (!panel.title.empty())
-    sketch.letters(
-        std::vector<std::array<double, 2>>{{panel.stage.empty() ? x.high : x.low, axis.high}},
-        figures::verbatim_text(panel.title),
-        panel.stage.empty() ? "right offset character -0.8,-0.9 boxed" : "left offset character 0.8,-0.9 boxed");
+    sketch.letters(std::vector<std::array<double, 2>>{{0.5 * (x.low + x.high), axis.high}},
+                   figures::verbatim_text(panel.title), "center offset character 0,-0.9 boxed");
+  return axis;
 }
 
-/// A quantity along a sweep, in all its directions, with what is published of it.
+/// A quantity along a sweep, in all its directions, with what is published of it: values, and bounds of changes.
 figures::FigureRange add_curve(figures::Sketch& sketch, const ClaimPanel& panel, const Scorecard& card,
                                const ClaimSeries& series) {
   using Rows = std::vector<std::array<double, 2>>;
@@ -378,7 +385,8 @@ figures::FigureRange add_curve(figures::Sketch& sketch, const ClaimPanel& panel,
   const Rows other = rows_of(series.other);
   figures::FigureRange x;
   for (const auto& row : rows) x.include(row[0]);
-  add_panel(sketch, panel, reports::quantity_label(panel.quantity, false), {rows, other, data}, x);
+  const figures::FigureRange y =
+      add_panel(sketch, panel, reports::quantity_label(panel.quantity, false), {rows, other, data}, x);
   const bool both = !other.empty();
   const auto word = [&](studies::Direction d) {
     return both ? (d == studies::Direction::up ? "up" : "down") : "computed";
@@ -386,6 +394,14 @@ figures::FigureRange add_curve(figures::Sketch& sketch, const ClaimPanel& panel,
   sketch.add(rows, figures::solid(figures::ink::blue), word(series.direction));
   if (both) sketch.add(other, figures::dashed(figures::ink::green, 2, "(10,7)"), word(studies::Direction::down));
   sketch.add(data, style_of_data(), data.empty() ? "" : "published");
+  Rows bounds;
+  constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+  for (const Condition* c : conditions_of(card))
+    if (c->kind == ConditionKind::change && c->sweep == panel.sweep)
+      for (const double bound : c->within)
+        for (const auto& [value, height] : {std::pair(bound, y.low), {bound, y.high}, {gap, gap}})
+          bounds.push_back({value, height});
+  sketch.add(bounds, figures::dashed(figures::ink::red, 1.2, "(10,7)"), bounds.empty() ? "" : "bounds of a change");
   return x;
 }
 
@@ -405,7 +421,7 @@ figures::FigureRange add_modes(figures::Sketch& sketch, const ClaimPanel& panel,
   figures::FigureRange x;
   x.include(0.5);
   x.include(static_cast<double>(modes.size()) + 0.5);
-  add_panel(sketch, panel, "f / Hz", {computed, data}, x);
+  (void)add_panel(sketch, panel, "f / Hz", {computed, data}, x);
   sketch.add(computed, figures::dots(figures::ink::blue, 0.8), "computed");
   sketch.add(data, style_of_data(), data.empty() ? "" : "published");
   return x;
