@@ -74,12 +74,10 @@ std::vector<std::string> quantity_names() {
 const Table<Condition>& condition_table() {
   static const auto table = [] {
     Table<Condition> t("condition", "A condition on a sweep.");
-    t.choice(
-         "kind", &Condition::kind, named<ConditionKind>(condition_kinds),
-         "What is measured: the share or count of points of a regime, the value of a change, a sequence of regimes, a "
-         "statistic of a quantity, the factor by which it falls, its peaks, a jump of it, the largest variation "
-         "between neighbours, the agreement of both kinds of mesh, whether it decreases from sweep to sweep, published "
-         "values of a quantity along a sweep, or published natural frequencies of a stage.")
+    t.choice("kind", &Condition::kind, named<ConditionKind>(condition_kinds),
+             "What is measured. Of regimes: share, count, change, sequence, variation between neighbours, agreement of "
+             "both kinds of mesh. Of a quantity: a statistic (value), reduction, peaks, jump, decreasing from sweep to "
+             "sweep, published values (curve). Of a stage: published natural frequencies.")
         .required();
     t.text("sweep", &Condition::sweep, "The sweep, by its name.");
     t.texts("sweeps", &Condition::sweeps, list_most, "Sweeps one after the other, for decreasing.");

@@ -57,7 +57,7 @@ bool judge_stage(const Study& study, const std::string& root, F not_computed, Re
   const bool sound = unread.empty();
   if (study.stage.planet_count < 1 || study.stage.planet_count > gear::planets_max) return sound;
   auto rules = gear::problems_for_modes(study.stage);
-  if (study.has_motion()) {
+  if (study.integrates()) {
     const auto more = gear::problems_for_dynamics(study.stage);
     rules.insert(rules.end(), more.begin(), more.end());
   }

@@ -95,7 +95,7 @@ struct Study {
   /// Does the study compute a response?
   [[nodiscard]] bool has_dynamics() const { return plan.kind() != nullptr; }
   /// Does it integrate equations of motion, or need natural frequencies at most?
-  [[nodiscard]] bool has_motion() const;
+  [[nodiscard]] bool integrates() const;
   /// Is it computed point by point?
   [[nodiscard]] bool has_points() const;
 

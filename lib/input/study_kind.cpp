@@ -43,7 +43,7 @@ studies::SweepOptions& Plan::sweep() {
   return kind_->own_sweep(options_);
 }
 
-bool Study::has_motion() const {
+bool Study::integrates() const {
   return has_dynamics() && (plan.kind()->moves == nullptr || plan.kind()->moves(plan.options()));
 }
 

@@ -81,7 +81,7 @@ struct StudyKind {
   /// Does "operation" give the speed of the study, if no axis is the speed?
   bool at_given_speed = true;
 
-  /// Do these options compute motions? Null: they do. Others need a stage for modes alone.
+  /// Do these options integrate? Null: they do. Others need a stage for modes alone.
   bool (*moves)(const std::any& options) = nullptr;
 
   /// Rules of the options that span keys.

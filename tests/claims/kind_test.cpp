@@ -49,7 +49,7 @@ TEST(ClaimsKind, ASweepByThePointerOfTheSpeedIsOneOfTheSpeed) {
 /// A study of frequencies needs no load and no damping.
 TEST(ClaimsKind, OfFrequenciesAloneTakesAStageForModes) {
   const input::LoadedInput input = input::load_input("validation/linparker1999_modes/claims.json");
-  EXPECT_FALSE(input.study.has_motion());
+  EXPECT_FALSE(input.study.integrates());
   const ClaimsOptions& options = claims_in(input.study);
   ASSERT_EQ(options.stages.size(), 3U);
   for (std::size_t k = 0; k < 3; ++k) {
