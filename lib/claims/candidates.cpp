@@ -17,6 +17,16 @@ using namespace studies;
 
 namespace {
 
+/// Does a condition read forces of the quasi-static solution?
+bool reads_quasi_static(const ClaimsOptions& options) {
+  const auto reads = [](const Condition& c) {
+    return c.quantity.starts_with("kv_") || c.quantity.starts_with("k_gamma_");
+  };
+  return std::ranges::any_of(options.claims, [&](const Claim& c) {
+    return std::ranges::any_of(c.conditions, reads) || std::ranges::any_of(c.as_printed, reads);
+  });
+}
+
 integrate::IntegratorOptions integrator_of(const Screening& screening) {
   integrate::IntegratorOptions integrator;
   integrator.method = "lanes-cash-karp";
@@ -34,7 +44,7 @@ RecordingOptions screening_recording(const ClaimsOptions& options, const Screeni
   recording.growth_periods = screening.growth_periods;
   recording.period_max = std::min(recording.period_max, screening.recorded_periods / 2);
   recording.keep = Keep::section;
-  recording.quasi_static = false;  // no condition reads them
+  recording.quasi_static = reads_quasi_static(options);
   return recording;
 }
 
@@ -180,7 +190,7 @@ Evaluation evaluate_whole(const ClaimsOptions& options, const integrate::Integra
     // Evidence beyond the record changes no dot.
     if (reading == Reading::printed && whole.recording.transient == Transient::fixed && !needs_exponents(options))
       whole.recording.classification_periods = 0;
-    whole.recording.quasi_static = false;
+    whole.recording.quasi_static = reads_quasi_static(options);
     const SweepPlan plan = plan_sweep(whole);
     SweepRun run;
     run.stop = stop;

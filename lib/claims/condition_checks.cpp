@@ -62,7 +62,33 @@ void check_sweep_name(ProblemList& problems, const std::string& place, const std
   if (!sweeps.contains(name)) problems.refuse(place, "is \"" + name + "\", which is no sweep of the study");
 }
 
-void check_condition(ProblemList& problems, const std::string& place, const Condition& c, const Names& sweeps) {
+void check_stage_name(ProblemList& problems, const std::string& place, const std::string& name, const Names& stages) {
+  if (!stages.contains(name)) problems.refuse(place, "is \"" + name + "\", which is no stage of the study");
+}
+
+namespace {
+
+/// Published numbers: values and their places, or frequencies and their tolerances.
+void check_data(ProblemList& problems, const std::string& place, const Condition& c) {
+  if (c.kind == ConditionKind::curve) {
+    if (c.data.size() != c.data_at.size())
+      problems.refuse(place + "/data", "has " + std::to_string(c.data.size()) + " numbers, and data_at has " +
+                                           std::to_string(c.data_at.size()) + ": there must be one for each");
+    if (!c.data.empty() && std::ranges::all_of(c.data, [](double x) { return x == 0.0; }))
+      problems.refuse(place + "/data",
+                      "is 0 everywhere: the tolerance is a part of the largest value; bound the quantity "
+                      "by a condition of kind \"value\"");
+  }
+  if (c.tolerance_Hz.size() > 1 && c.tolerance_Hz.size() != c.frequencies_Hz.size())
+    problems.refuse(place + "/tolerance_Hz", "has " + std::to_string(c.tolerance_Hz.size()) +
+                                                 " numbers, must be one, or one for each of the " +
+                                                 std::to_string(c.frequencies_Hz.size()) + " frequencies_Hz");
+}
+
+}  // namespace
+
+void check_condition(ProblemList& problems, const std::string& place, const Condition& c, const Names& sweeps,
+                     const Names& stages) {
   using enum ConditionKind;
   const std::string kind = kind_name(c.kind);
   const auto of = [&](std::initializer_list<ConditionKind> kinds) {
@@ -79,17 +105,33 @@ void check_condition(ProblemList& problems, const std::string& place, const Cond
     if (c.sweeps.size() < 2) problems.refuse(place + "/sweeps", "must name two sweeps at least");
     for (std::size_t k = 0; k < c.sweeps.size(); ++k)
       check_sweep_name(problems, place + "/sweeps/" + std::to_string(k), c.sweeps[k], sweeps);
+  } else if (c.kind == frequencies) {
+    wants(!c.sweep.empty(), false, false, "sweep");
+    wants(!c.sweeps.empty(), false, false, "sweeps");
+    check_stage_name(problems, place + "/stage", c.stage, stages);
   } else {
     wants(!c.sweeps.empty(), false, false, "sweeps");
     check_sweep_name(problems, place + "/sweep", c.sweep, sweeps);
   }
+  wants(c.from.has_value(), false, !of({curve, frequencies}), "from");
+  wants(c.to.has_value(), false, !of({curve, frequencies}), "to");
+  wants(!c.data_at.empty(), c.kind == curve, c.kind == curve, "data_at");
+  wants(!c.data.empty(), c.kind == curve, c.kind == curve, "data");
+  wants(c.tolerance.has_value(), c.kind == curve, c.kind == curve, "tolerance");
+  wants(c.direction.has_value(), false, c.kind == curve, "direction");
+  if (c.kind != frequencies) wants(!c.stage.empty(), false, false, "stage");
+  wants(!c.mode_type.empty(), false, c.kind == frequencies, "mode_type");
+  wants(!c.frequencies_Hz.empty(), c.kind == frequencies, c.kind == frequencies, "frequencies_Hz");
+  wants(!c.tolerance_Hz.empty(), c.kind == frequencies, c.kind == frequencies, "tolerance_Hz");
+  wants(c.multiplicity.has_value(), false, c.kind == frequencies, "multiplicity");
+  check_data(problems, place, c);
   wants(!c.regime.empty(), of({share, count, change}), of({share, count, change, value, jump, decreasing}), "regime");
   wants(!c.regime_after.empty(), c.kind == change, c.kind == change, "regime_after");
   wants(!c.leads_to.empty(), false, c.kind == change, "leads_to");
   wants(!c.regimes.empty(), c.kind == sequence, c.kind == sequence, "regimes");
   wants(!c.within.empty(), c.kind == change, c.kind == change, "within");
-  wants(!c.quantity.empty(), of({value, reduction, peaks, jump, decreasing}),
-        of({value, reduction, peaks, jump, decreasing}), "quantity");
+  const bool has_quantity = of({value, reduction, peaks, jump, decreasing, curve});
+  wants(!c.quantity.empty(), has_quantity, has_quantity, "quantity");
   wants(!c.peak_locations.empty(), c.kind == peaks, c.kind == peaks, "peak_locations");
   wants(c.correlation.has_value(), false, c.kind == agreement, "correlation");
   wants(c.which.has_value(), false, c.kind == change, "which");
@@ -97,7 +139,7 @@ void check_condition(ProblemList& problems, const std::string& place, const Cond
   wants(c.location_tolerance.has_value(), false, c.kind == peaks, "location_tolerance");
   wants(c.prominence.has_value(), false, c.kind == peaks, "prominence");
   const bool bounded = of({share, count, value, variation});
-  wants(c.at_least.has_value(), of({reduction, jump, agreement}), bounded || of({reduction, jump, agreement}),
+  wants(c.at_least.has_value(), of({reduction, jump, agreement}), bounded || of({reduction, jump, agreement, curve}),
         "at_least");
   wants(c.at_most.has_value(), false, bounded, "at_most");
   if (bounded && !c.at_least && !c.at_most)
@@ -105,7 +147,7 @@ void check_condition(ProblemList& problems, const std::string& place, const Cond
   if (c.at_least && c.at_most && !(*c.at_least <= *c.at_most))
     problems.refuse(place + "/at_least", "is " + short_text(*c.at_least, 17) + ", must be <= at_most");
   // Parts of 1; beyond them a condition would never hold, or always.
-  if (of({share, agreement, variation, jump})) {
+  if (of({share, agreement, variation, jump, curve})) {
     if (c.at_least && !(*c.at_least > 0.0 && *c.at_least <= 1.0))
       problems.refuse(place + "/at_least", "is " + short_text(*c.at_least, 17) + ", must be > 0 and <= 1: a part of 1");
     if (c.at_most && !(*c.at_most >= 0.0 && *c.at_most < 1.0))
@@ -281,6 +323,14 @@ void check_part(ProblemList& problems, const std::string& place, const Condition
     if (!(c.peak_locations[k] >= part.from && c.peak_locations[k] <= part.to && c.peak_locations[k] > 0.0))
       problems.refuse(place + "/peak_locations/" + std::to_string(k),
                       "is " + short_text(c.peak_locations[k], 17) + ", must be > 0 and within " + part.text());
+  for (std::size_t k = 0; k < c.data_at.size(); ++k)
+    if (!is_at_least(c.data_at[k], part.from) || !is_at_most(c.data_at[k], part.to))
+      problems.refuse(place + "/data_at/" + std::to_string(k),
+                      "is " + short_text(c.data_at[k], 17) + ", must be within " + part.text());
+  if (c.direction && std::ranges::find(sweep.directions, *c.direction) == sweep.directions.end())
+    problems.refuse(place + "/direction", "is no direction of the sweep \"" + sweep.name + "\"");
+  if (c.direction && std::ranges::find(options.starts, Start::cold) != options.starts.end())
+    problems.refuse(place + "/direction", "needs \"starts\": [\"continued\"]: cold starts have no direction");
   check_counted(problems, place, c, sweep.name, part.grids);
   for (const Grid& grid : part.grids)
     if (problems.count() == before) check_grid(problems, place, c, sweep.name, part.text(), grid);
@@ -369,6 +419,13 @@ void check_common_values(ProblemList& problems, const std::string& place, const 
 
 void check_grids(ProblemList& problems, const std::string& place, const Condition& c, const ClaimsOptions& options) {
   std::vector<const ClaimSweep*> sweeps;
+  if (c.kind == ConditionKind::frequencies) {
+    if (has_screening(options))
+      problems.refuse(place + "/kind",
+                      "is \"frequencies\", which is judged for the stage as it is given; a study with "
+                      "parameters or choices judges other stages");
+    return;
+  }
   const std::vector<std::string> names = c.kind == ConditionKind::decreasing ? c.sweeps : std::vector{c.sweep};
   for (const std::string& name : names) {
     const auto sweep = std::ranges::find(options.sweeps, name, &ClaimSweep::name);

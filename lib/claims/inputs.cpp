@@ -6,15 +6,18 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "claims/kind.hpp"
+#include "core/errors.hpp"
 #include "input/derived_study.hpp"
 #include "input/given_speeds.hpp"
 #include "input/study_model.hpp"
 #include "kinds/list.hpp"
+#include "model/modes.hpp"
 #include "studies/named_parameters.hpp"
 
 namespace epicyclic::claims {
@@ -60,12 +63,17 @@ std::optional<std::size_t> option_of(const LoadedInput& input, const Choice& cho
   return std::nullopt;
 }
 
+std::vector<Assignment> assignments_of(const std::vector<OptionSet>& sets) {
+  std::vector<Assignment> all;
+  for (const OptionSet& set : sets) all.push_back({set.pointer, json::parse(set.value), set.pointer + "=" + set.value});
+  return all;
+}
+
 /// Values that options of choices put into the input, one option of each choice.
 std::vector<Assignment> option_assignments(const ParameterSpace& space, const std::vector<std::size_t>& options) {
   std::vector<Assignment> sets;
   for (std::size_t k = 0; k < options.size(); ++k)
-    for (const OptionSet& set : space.choices[k].options[options[k]].sets)
-      sets.push_back({set.pointer, json::parse(set.value), set.pointer + "=" + set.value});
+    std::ranges::move(assignments_of(space.choices[k].options[options[k]].sets), std::back_inserter(sets));
   return sets;
 }
 
@@ -203,6 +211,23 @@ std::optional<double> number_to_set(const LoadedInput& input, std::span<const Po
   return number_at(input, set.same_as);
 }
 
+std::vector<ClaimMode> modes_of(const LoadedInput& given, const ClaimStage& stage) {
+  const LoadedInput input = stage.sets.empty() ? given : given.with_further(assignments_of(stage.sets));
+  std::vector<PointerValue> values;
+  for (const SetValue& set : stage.at) {
+    const std::optional<double> value = number_to_set(input, {}, set);
+    if (!value) throw InputError("\"" + set.same_as + "\" is no number of the resolved input");
+    values.push_back({set.parameter, *value});
+  }
+  const gear::Stage made = input.with_values(values).stage;
+  const model::Scales scales = model::scales_of(made);
+  std::vector<ClaimMode> modes;
+  for (const model::Mode& mode : model::modes(made, scales))
+    modes.push_back({mode.frequency_ratio * scales.omega_sn / (2.0 * std::numbers::pi), model::to_string(mode.type),
+                     mode.multiplicity});
+  return modes;
+}
+
 namespace {
 
 /// Values that differ along a sweep of the claims: those of its `at`. Also Omega, if they change the stage and a speed
@@ -222,8 +247,9 @@ std::vector<PointerValue> set_along(const LoadedInput& input, std::span<const Po
 
 }  // namespace
 
-json sweep_input(const LoadedInput& input, const ClaimSweep& sweep, studies::Start start) {
-  const auto& options = claims_in(input.study);
+json sweep_input(const LoadedInput& given, const ClaimSweep& sweep, studies::Start start) {
+  const LoadedInput input = sweep.sets.empty() ? given : given.with_further(assignments_of(sweep.sets));
+  const auto& options = claims_in(given.study);
   input::Study study = input.study;
   study.plan = input::Plan(kinds::sweep_kind(), options.whole_sweep(sweep, start));
   const std::vector<PointerValue> set = set_along(input, {}, sweep);
@@ -240,23 +266,59 @@ json sweep_input(const LoadedInput& input, const ClaimSweep& sweep, studies::Sta
 
 namespace {
 
+/// An input, with values in place of its numbers.
+struct GivenPoint {
+  std::shared_ptr<const LoadedInput> input;
+  std::vector<PointerValue> fixed;
+  model::OperatingPoint point;
+
+  GivenPoint(std::shared_ptr<const LoadedInput> of, const std::vector<PointerValue>& values)
+      : input(std::move(of)),
+        fixed(values.empty() ? values : input::at_given_speed(*input, values)),
+        point(input::point_at(*input, fixed)) {}
+};
+
+/// Inputs with the sets of sweeps in place, each made at its first request.
+class SweepInputs {
+ public:
+  SweepInputs(std::shared_ptr<const LoadedInput> input, std::vector<PointerValue> values)
+      : values_(std::move(values)), given_(std::move(input), values_) {}
+
+  const GivenPoint& of(const ClaimSweep& sweep) {
+    if (sweep.sets.empty()) return given_;
+    const std::scoped_lock lock(mutex_);
+    auto& made = made_[sweep.name];
+    if (made == nullptr)
+      made = std::make_unique<GivenPoint>(
+          std::make_shared<const LoadedInput>(given_.input->with_further(assignments_of(sweep.sets))), values_);
+    return *made;
+  }
+  [[nodiscard]] const std::vector<PointerValue>& values() const { return values_; }
+
+ private:
+  std::vector<PointerValue> values_;
+  GivenPoint given_;
+  std::mutex mutex_;
+  std::map<std::string, std::unique_ptr<const GivenPoint>, std::less<>> made_;
+};
+
 /// The models of a study for the sweeps of claims, each sweep as the study of its own that sweep_input() makes of it:
-/// with the scales of the stage that its `at` has set.
+/// with the scales of the stage that its `sets` and `at` make.
 SweepModels sweep_models(std::shared_ptr<const LoadedInput> input, std::vector<PointerValue> values) {
-  const std::vector<PointerValue> fixed = values.empty() ? values : input::at_given_speed(*input, values);
-  const model::OperatingPoint given = input::point_at(*input, fixed);
-  return [input = std::move(input), values = std::move(values), fixed, given](const ClaimSweep& sweep, double value) {
+  auto inputs = std::make_shared<SweepInputs>(std::move(input), std::move(values));
+  return [inputs](const ClaimSweep& sweep, double value) {
+    const GivenPoint& given = inputs->of(sweep);
     const auto with = [&](const std::vector<PointerValue>& set) {
       if (std::ranges::any_of(set, [](const PointerValue& v) { return v.pointer.starts_with('/'); })) {
-        std::vector<PointerValue> all = fixed;
+        std::vector<PointerValue> all = given.fixed;
         all.insert(all.end(), set.begin(), set.end());
-        return input::point_at(*input, all);
+        return input::point_at(*given.input, all);
       }
-      model::OperatingPoint point = given;
+      model::OperatingPoint point = given.point;
       input::set_named(point, set);
       return point;
     };
-    std::vector<PointerValue> set = set_along(*input, values, sweep);
+    std::vector<PointerValue> set = set_along(*given.input, inputs->values(), sweep);
     const model::Scales scales = model::scales_of(with(set).stage);
     set.push_back({sweep.axis.name, value});
     return input::model_of(with(set), scales);

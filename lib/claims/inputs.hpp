@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "claims/candidates.hpp"
+#include "claims/judging.hpp"
 #include "claims/options.hpp"
 #include "input/study_input.hpp"
 
@@ -30,6 +31,10 @@ struct GivenCandidate {
 /// @returns nothing if the resolved input has no such number
 [[nodiscard]] std::optional<double> number_to_set(const input::LoadedInput& input,
                                                   std::span<const input::PointerValue> values, const SetValue& set);
+
+/// The natural frequencies of a stage of the claims.
+/// @throws InputProblems if it is no valid stage, InputError if a value that it is to have is no number
+[[nodiscard]] std::vector<ClaimMode> modes_of(const input::LoadedInput& input, const ClaimStage& stage);
 
 /// A sweep of the claims as a study of its own: the resolved input with the sweep's values in place.
 [[nodiscard]] nlohmann::json sweep_input(const input::LoadedInput& input, const ClaimSweep& sweep,

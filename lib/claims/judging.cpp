@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "core/text.hpp"
+#include "store/stage_columns.hpp"
 
 namespace epicyclic::claims {
 
@@ -79,9 +80,38 @@ std::string ClaimRegime::text() const {
   return regime == Regime::periodic ? "period " + std::to_string(period) : to_string(regime);
 }
 
+namespace {
+
+/// Columns of numbers that are no claim_quantities.
+const std::vector<store::StageColumn>& number_columns() {
+  static const std::vector<store::StageColumn> columns = [] {
+    std::vector<store::StageColumn> all;
+    for (auto& list : {store::contact_columns(), store::stage_columns()})
+      for (const store::StageColumn& column : list)
+        if (std::holds_alternative<store::StageColumn::Getter<double>>(column.value) &&
+            std::ranges::find(claim_quantities, std::string_view(column.name)) == claim_quantities.end())
+          all.push_back(column);
+    return all;
+  }();
+  return columns;
+}
+
+}  // namespace
+
+const std::vector<std::string>& column_quantities() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const store::StageColumn& column : number_columns()) all.push_back(column.name);
+    return all;
+  }();
+  return names;
+}
+
 double ClaimPoint::quantity(std::string_view name) const {
   const auto* const found = std::ranges::find(claim_quantities, name);
-  return quantities.at(static_cast<std::size_t>(found - claim_quantities.begin()));
+  if (found != claim_quantities.end()) return quantities[static_cast<std::size_t>(found - claim_quantities.begin())];
+  const auto column = std::ranges::find(column_quantities(), name);
+  return columns.at(static_cast<std::size_t>(column - column_quantities().begin()));
 }
 
 double& ClaimPoint::quantity_of(std::string_view name) {
@@ -162,6 +192,8 @@ ClaimPoint claim_point(const PointResult& result, const RecordingOptions& record
                       result.meshes.dynamic_factor(result.meshes.sun_planet),
                       result.meshes.dynamic_factor(result.meshes.ring_planet),
                       result.meshes.largest_share()};
+  for (const store::StageColumn& number_column : number_columns())
+    point.columns.push_back(std::get<store::StageColumn::Getter<double>>(number_column.value)(result.meshes));
   const auto sorted = [](const analysis::PoincareSection& section) {
     std::vector<double> points = section.states;
     std::ranges::sort(points);
@@ -181,6 +213,7 @@ Direction judged_direction(const PointSource& points) {
 ClaimSeries claim_series(const PointSource& points, const RecordingOptions& recording) {
   const Direction judged = judged_direction(points);
   ClaimSeries series;
+  series.direction = judged;
   for (std::size_t k = 0; k < points.count; ++k) {
     const PointResult result = points.read(k);
     auto& list = result.point.direction == judged ? series.points : series.other;
@@ -239,7 +272,7 @@ ClaimSeries as_printed(ClaimSeries series, const PrintedDots& ink, double recurr
 }
 
 ClaimSeries read_as(Reading reading, ClaimSeries series, const ClaimsOptions& options) {
-  if (reading == Reading::evidence) return series;
+  if (reading == Reading::evidence || series.points.empty()) return series;
   return as_printed(std::move(series), options.printed, options.recording.recurrence_tolerance);
 }
 
@@ -831,6 +864,70 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
            points_text(unconverged, std::string(not_converged) + " in one of them");
 }
 
+/// Published values of a quantity along a sweep.
+void curve(const Condition& c, const ClaimSeries& series, ConditionOutcome& o) {
+  const Direction direction = c.direction.value_or(series.direction);
+  const std::vector<ClaimPoint>& points = direction == series.direction ? series.points : series.other;
+  double scale = 0.0;
+  for (const double published : c.data) scale = std::max(scale, std::abs(published));
+  const double tolerance = c.tolerance.value_or(0.0);
+  double within = 0.0;
+  double costs = 0.0;
+  double worst = -1.0;
+  std::string at;
+  for (std::size_t k = 0; k < c.data.size(); ++k) {
+    const double there = quantity_at(points, c.quantity, c.data_at[k]);
+    const double off = std::abs(there - c.data[k]) / scale;
+    const bool is_within = off <= tolerance;
+    within += is_within ? 1.0 : 0.0;
+    costs += is_within ? 0.0 : cost_within(off, 0.0, tolerance, tolerance);
+    if (off <= worst) continue;
+    worst = std::isnan(off) ? std::numeric_limits<double>::infinity() : off;
+    at = number(there) + " for " + number(c.data[k]) + " at " + number(c.data_at[k]);
+  }
+  const auto count = static_cast<double>(c.data.size());
+  o.measured = within / count;
+  o.part_of_one = true;
+  o.holds = o.measured >= c.at_least.value_or(1.0);
+  o.cost = o.holds ? 0.0 : costs / count;
+  o.text = c.quantity + ": " + number(within) + " of " + number(count) + " values within " + number(100.0 * tolerance) +
+           " % of the largest; " +
+           (std::isfinite(worst) ? "most off by " + number(100.0 * worst) + " %" : std::string("not computed")) + ": " +
+           at;
+}
+
+/// All natural frequencies of a type, each next to its published value.
+void frequencies(const Condition& c, const std::vector<ClaimMode>& modes, ConditionOutcome& o) {
+  const ModeMatch match = matched_modes(c, modes);
+  const std::string kind = c.mode_type.empty() ? std::string() : c.mode_type + " ";
+  if (match.modes.size() != match.published.size()) {
+    o.measured = none;
+    o.text = std::to_string(match.modes.size()) + " " + kind + "frequencies, " +
+             std::to_string(match.published.size()) + " are published";
+    return;
+  }
+  double worst = -1.0;
+  bool within = true;
+  std::string at;
+  std::string other;
+  for (std::size_t k = 0; k < match.modes.size(); ++k) {
+    const ClaimMode& mode = modes[match.modes[k]];
+    const double off = std::abs(mode.frequency_Hz - match.published[k]);
+    // Published digits and tolerances are decimal numbers.
+    within = within && is_at_most(off, match.tolerance[k]);
+    if (c.multiplicity && mode.multiplicity != *c.multiplicity)
+      other += "; " + number(mode.frequency_Hz) + " Hz has multiplicity " + std::to_string(mode.multiplicity);
+    if (off <= worst) continue;
+    worst = off;
+    at = short_text(mode.frequency_Hz, 7) + " for " + short_text(match.published[k], 7) + " Hz";
+  }
+  o.measured = worst;
+  o.holds = within && other.empty();
+  o.cost = o.holds ? 0.0 : cost_within(worst, 0.0, match.tolerance.front(), match.tolerance.front());
+  o.text = std::to_string(match.modes.size()) + " " + kind + "frequencies, most off by " + short_text(worst, 2) +
+           " Hz: " + at + other;
+}
+
 /// Do all quantities of the conditions at these points equal those of the first, to within integration errors?
 bool is_inert(const ClaimPoint& first, const std::vector<ClaimPoint>& points,
               const std::set<std::string, std::less<>>& quantities) {
@@ -866,13 +963,47 @@ std::vector<std::string> compared_with_others(const Claim& claim) {
 
 }  // namespace
 
+ModeMatch matched_modes(const Condition& c, const std::vector<ClaimMode>& modes) {
+  ModeMatch match;
+  for (std::size_t k = 0; k < modes.size(); ++k)
+    if (c.mode_type.empty() || modes[k].type == c.mode_type) match.modes.push_back(k);
+  std::vector<std::pair<double, double>> published;
+  for (std::size_t k = 0; k < c.frequencies_Hz.size(); ++k)
+    published.emplace_back(c.frequencies_Hz[k], c.tolerance_Hz[c.tolerance_Hz.size() == 1 ? 0 : k]);
+  std::ranges::sort(published);
+  for (const auto& [frequency, tolerance] : published) {
+    match.published.push_back(frequency);
+    match.tolerance.push_back(tolerance);
+  }
+  return match;
+}
+
+double quantity_at(const std::vector<ClaimPoint>& points, std::string_view quantity, double value) {
+  const auto right = std::ranges::find_if(points, [&](const ClaimPoint& p) { return is_at_least(p.value, value); });
+  if (right == points.end() || !right->reached) return none;
+  if (is_same_value(right->value, value)) return right->quantity(quantity);
+  if (right == points.begin() || !std::prev(right)->reached) return none;
+  const ClaimPoint& left = *std::prev(right);
+  const double part = (value - left.value) / (right->value - left.value);
+  return left.quantity(quantity) + part * (right->quantity(quantity) - left.quantity(quantity));
+}
+
 ConditionOutcome judge(const Condition& c, const ClaimRecord& record) {
   ConditionOutcome o;
   if (c.kind == ConditionKind::decreasing) {
     decreasing(c, record, o);
     return o;
   }
+  if (c.kind == ConditionKind::frequencies) {
+    frequencies(c, record.at(c.stage).modes, o);
+    return o;
+  }
   const ClaimSeries& series = record.at(c.sweep);
+  if (c.kind == ConditionKind::curve) {
+    curve(c, series, o);
+    o.text += doubts_text(c, series.points);
+    return o;
+  }
   const std::span<const ClaimPoint> part = part_of(series.points, c);
   if (part.empty()) {
     o.measured = none;
@@ -911,6 +1042,8 @@ ConditionOutcome judge(const Condition& c, const ClaimRecord& record) {
       alike(c, part, o);
       break;
     case ConditionKind::decreasing:
+    case ConditionKind::curve:
+    case ConditionKind::frequencies:
       break;
   }
   if (o.holds) o.cost = 0.0;
@@ -942,7 +1075,7 @@ ClaimOutcome judge(const Claim& claim, const ClaimRecord& record, Reading readin
       outcome = std::move(instead);
   const std::vector<std::string> sweeps = sweeps_of(claim);
   const std::vector<std::string> compared = compared_with_others(claim);
-  outcome.inert = std::ranges::all_of(sweeps, [&](const std::string& name) {
+  outcome.inert = !sweeps.empty() && std::ranges::all_of(sweeps, [&](const std::string& name) {
     const ClaimSeries& series = record.at(name);
     const bool is_compared = std::ranges::find(compared, name) != compared.end();
     const std::vector<ClaimPoint>& beside = record.at(is_compared ? compared.front() : name).points;

@@ -65,6 +65,7 @@ struct ClaimPoint {
   ClaimRegime response;
   ClaimRegime by_sun_mesh, by_ring_mesh;  ///< from the deflection of planet 1's mesh alone
   std::array<double, claim_quantities.size()> quantities{};
+  std::vector<double> columns;                    ///< of column_quantities()
   std::vector<double> sun_section, ring_section;  ///< Poincare points of planet 1's meshes, rising [b_c]
   std::optional<PeriodOne> period_one;            ///< where it was followed
   std::optional<DotColumn> dots;                  ///< of the sun's mesh, where they lead a search
@@ -78,14 +79,26 @@ struct ClaimPoint {
   [[nodiscard]] std::optional<double> lacks(std::string_view word) const;
 };
 
+/// Further quantities of a point: the columns of numbers of a whole stage in points.csv, in their units.
+[[nodiscard]] const std::vector<std::string>& column_quantities();
+
 /// @param result  with its Poincare section
 [[nodiscard]] ClaimPoint claim_point(const studies::PointResult& result, const studies::RecordingOptions& recording,
                                      Depth depth);
 
-/// A sweep's points by rising value.
+/// One natural frequency of a stage.
+struct ClaimMode {
+  double frequency_Hz = 0;
+  std::string_view type;  ///< of mode_types
+  int multiplicity = 1;
+};
+
+/// A sweep's points by rising value, or a stage's natural frequencies.
 struct ClaimSeries {
   std::vector<ClaimPoint> points;
   std::vector<ClaimPoint> other;  ///< at the same values from elsewhere (the other direction), if there are any
+  studies::Direction direction = studies::Direction::up;  ///< of the points
+  std::vector<ClaimMode> modes;                           ///< by rising frequency
 };
 
 /// The direction of the verdicts: up, or down if there is no other.
@@ -100,7 +113,19 @@ void add_dots(ClaimSeries& series, const PrintedDots& ink, double recurrence_tol
 /// A series with the regimes that a printed diagram shows.
 [[nodiscard]] ClaimSeries as_printed(ClaimSeries series, const PrintedDots& ink, double recurrence_tolerance);
 
-/// Series by the names of the sweeps.
+/// The natural frequencies that a condition is about, and those that are published.
+struct ModeMatch {
+  std::vector<std::size_t> modes;  ///< numbers of the stage's modes of that type
+  std::vector<double> published;   ///< [Hz], rising
+  std::vector<double> tolerance;   ///< of each [Hz]
+};
+[[nodiscard]] ModeMatch matched_modes(const Condition& condition, const std::vector<ClaimMode>& modes);
+
+/// A quantity at a value of the parameter, linear between the neighbouring points.
+/// @returns not a number outside the points, or next to one that failed
+[[nodiscard]] double quantity_at(const std::vector<ClaimPoint>& points, std::string_view quantity, double value);
+
+/// Series by the names of the sweeps and stages.
 using ClaimRecord = std::map<std::string, ClaimSeries, std::less<>>;
 
 /// A series as a reading has it; by evidence it is the series itself.

@@ -10,10 +10,12 @@
 #include <nlohmann/json.hpp>
 
 #include "claims/inputs.hpp"
+#include "core/errors.hpp"
 #include "core/json_pointer.hpp"
 #include "input/given_speeds.hpp"
 #include "input/pointers.hpp"
 #include "input/study_model.hpp"
+#include "store/stage_columns.hpp"
 #include "studies/named_parameters.hpp"
 
 namespace epicyclic::claims {
@@ -30,6 +32,30 @@ void name_speeds(input::Study& study) {
   for (ClaimSweep& sweep : claims_in(study).sweeps) input::name_speed(sweep.axis.name);
 }
 
+/// A pair of gears has no ring's mesh and no shares of planets.
+void check_of_pair(const ClaimsOptions& claims, input::ReadContext& context) {
+  const auto refuse = [&](const std::string& place, const std::string& what) {
+    context.add(input::Finding::Kind::rule, "/study" + place,
+                "is \"" + what + "\", which a pair of gears does not have");
+  };
+  for (std::size_t k = 0; k < claims.claims.size(); ++k)
+    for (const auto& [conditions, key] : {std::pair(&claims.claims[k].conditions, "/conditions/"),
+                                          std::pair(&claims.claims[k].as_printed, "/as_printed/")})
+      for (std::size_t j = 0; j < conditions->size(); ++j) {
+        const Condition& c = (*conditions)[j];
+        const std::string place = "/claims/" + std::to_string(k) + key + std::to_string(j);
+        if (!store::is_of_pair(c.quantity)) refuse(place + "/quantity", c.quantity);
+        if (c.kind == ConditionKind::agreement) refuse(place + "/kind", "agreement");
+      }
+  for (std::size_t k = 0; k < claims.figures.size(); ++k)
+    for (std::size_t j = 0; j < claims.figures[k].panels.size(); ++j) {
+      const ClaimPanel& panel = claims.figures[k].panels[j];
+      const std::string place = "/figures/" + std::to_string(k) + "/panels/" + std::to_string(j);
+      if (panel.mesh == MeshSide::ring_planet) refuse(place + "/mesh", "ring_planet");
+      if (!store::is_of_pair(panel.quantity)) refuse(place + "/quantity", panel.quantity);
+    }
+}
+
 /// Rules of the options themselves, and names of parameters.
 void check(const input::Study& study, const input::IsBad& is_bad, input::ReadContext& context) {
   using input::Finding;
@@ -40,6 +66,22 @@ void check(const input::Study& study, const input::IsBad& is_bad, input::ReadCon
   const studies::RecordingOptions& recording = claims.recording;
   if (recording.transient == studies::Transient::adaptive && recording.classification_periods == 0)
     context.add(Finding::Kind::rule, "/study/classification_periods", "is 0, must be >= 1 for an adaptive transient");
+  const auto check_set = [&](const SetValue& set, const std::string& at) {
+    if (set.value.has_value() != set.same_as.empty())
+      context.add(Finding::Kind::rule, at, "must have \"value\" or \"same_as\", and not both");
+    if (std::string why = input::why_no_parameter(set.parameter); !why.empty())
+      context.add(Finding::Kind::rule, at + "/parameter", std::move(why));
+  };
+  for (std::size_t k = 0; k < claims.stages.size(); ++k)
+    for (std::size_t j = 0; j < claims.stages[k].at.size(); ++j) {
+      const std::string at = "/study/stages/" + std::to_string(k) + "/at/" + std::to_string(j);
+      const std::string& parameter = claims.stages[k].at[j].parameter;
+      check_set(claims.stages[k].at[j], at);
+      if (!is_bad(at + "/parameter") && !parameter.starts_with("/stage/"))
+        context.add(Finding::Kind::rule, at + "/parameter",
+                    "is \"" + parameter + "\", must be a JSON pointer to a number of the stage: \"/stage/...\"");
+    }
+  if (study.stage.is_pair()) check_of_pair(claims, context);
   for (std::size_t k = 0; k < claims.sweeps.size(); ++k) {
     const ClaimSweep& sweep = claims.sweeps[k];
     const std::string place = "/study/sweeps/" + std::to_string(k);
@@ -52,13 +94,10 @@ void check(const input::Study& study, const input::IsBad& is_bad, input::ReadCon
       if (!is_bad(at + "/parameter") && set.value)
         input::check_named_parameter(studies::Axis{set.parameter, *set.value, *set.value, 1}, at, is_bad, context,
                                      false);
-      if (set.value.has_value() != set.same_as.empty())
-        context.add(Finding::Kind::rule, at, "must have \"value\" or \"same_as\", and not both");
+      check_set(set, at);
       input::check_different(sweep.axis.name, set.parameter, at + "/parameter", context);
       for (std::size_t before = 0; before < j; ++before)
         input::check_different(sweep.at[before].parameter, set.parameter, at + "/parameter", context);
-      if (std::string why = input::why_no_parameter(set.parameter); !why.empty())
-        context.add(Finding::Kind::rule, at + "/parameter", std::move(why));
     }
   }
 }
@@ -78,6 +117,7 @@ void check_values(const LoadedInput& input, const std::function<void(const std::
   };
   for (std::size_t k = 0; k < claims.sweeps.size(); ++k) {
     const ClaimSweep& sweep = claims.sweeps[k];
+    if (!sweep.sets.empty()) continue;  // of another input: checked when its models are made
     const std::string place = "/study/sweeps/" + std::to_string(k);
     check(sweep.axis.name, sweep.axis.from, place + "/from");
     check(sweep.axis.name, sweep.axis.to, place + "/to");
@@ -106,6 +146,18 @@ void check_values(const LoadedInput& input, const std::function<void(const std::
         check(set.parameter, *value, at + (set.value ? "/value" : "/same_as"));
       else
         refuse(at + "/same_as", "is \"" + set.same_as + "\", which is no number of the resolved input");
+    }
+  }
+  for (std::size_t k = 0; k < claims.stages.size(); ++k) {
+    if (!claims.stages[k].sets.empty()) continue;  // likewise
+    const std::string place = "/study/stages/" + std::to_string(k) + "/at";
+    try {
+      (void)modes_of(input, claims.stages[k]);
+    } catch (const input::InputProblems& wrong) {
+      for (const input::Problem& problem : wrong.problems())
+        refuse(place, "makes a stage with which " + problem.pointer + " " + problem.message);
+    } catch (const InputError& wrong) {
+      refuse(place, wrong.what());
     }
   }
   for (std::size_t k = 0; k < claims.space.parameters.size(); ++k) {
@@ -166,6 +218,7 @@ const input::StudyKind& claims_kind() {
       },
       .name_speeds = &name_speeds,
       .at_given_speed = false,
+      .moves = [](const std::any& options) { return !std::any_cast<const ClaimsOptions&>(options).sweeps.empty(); },
       .check = &check,
       .check_values = &check_values,
       .warn = &warn,

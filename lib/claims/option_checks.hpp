@@ -44,9 +44,13 @@ class ProblemList {
 /// Whether the study has a sweep of that name.
 void check_sweep_name(ProblemList& problems, const std::string& place, const std::string& name, const Names& sweeps);
 
+/// Whether the study has a stage of that name.
+void check_stage_name(ProblemList& problems, const std::string& place, const std::string& name, const Names& stages);
+
 /// Checks of a condition alone: the keys that its kind reads, and their values.
 /// @param place  of the condition below the study
-void check_condition(ProblemList& problems, const std::string& place, const Condition& condition, const Names& sweeps);
+void check_condition(ProblemList& problems, const std::string& place, const Condition& condition, const Names& sweeps,
+                     const Names& stages);
 
 /// Requirements of a condition on the grids of its sweeps, in each evaluation, and on the evaluations.
 void check_grids(ProblemList& problems, const std::string& place, const Condition& condition,

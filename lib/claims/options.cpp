@@ -43,7 +43,14 @@ bool ClaimsOptions::has_reading(Reading reading) const {
 std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const {
   ProblemList problems;
   const Names names = problems.names(sweeps, "/sweeps");
-  if (sweeps.empty()) problems.refuse("/sweeps", "is empty: there is nothing to judge claims by");
+  const Names stage_names = problems.names(stages, "/stages");
+  if (sweeps.empty() && stages.empty())
+    problems.refuse("/sweeps", "is empty, and so is /stages: there is nothing to judge claims by");
+  for (std::size_t k = 0; k < stages.size(); ++k)
+    if (names.contains(stages[k].name))
+      problems.refuse("/stages/" + std::to_string(k) + "/name", "is \"" + stages[k].name + "\", as a sweep");
+  if (sweeps.empty() && space.dimension() > 0)
+    problems.refuse("/sweeps", "is empty: a search or a survey has nothing to compute");
   if (claims.empty()) problems.refuse("/claims", "is empty: there is nothing to judge");
   (void)problems.names(claims, "/claims");
   (void)problems.names(figures, "/figures");
@@ -74,7 +81,7 @@ std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const
     const std::string place = "/claims/" + std::to_string(k) + "/conditions";
     if (claims[k].conditions.empty()) problems.refuse(place, "is empty: the claim would always hold");
     const auto check_at = [&](const Condition& condition, const std::string& at) {
-      check_condition(problems, at, condition, names);
+      check_condition(problems, at, condition, names, stage_names);
       std::string parameter;
       for (std::size_t j = 0; j < condition.sweeps.size(); ++j) {
         const auto sweep = std::ranges::find(sweeps, condition.sweeps[j], &ClaimSweep::name);
@@ -100,8 +107,19 @@ std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const
     if (figures[k].panels.empty()) problems.refuse(place + "/panels", "is empty");
     std::string parameter;
     for (std::size_t s = 0; s < figures[k].panels.size(); ++s) {
-      const std::string at = place + "/panels/" + std::to_string(s) + "/sweep";
-      const std::string& sweep = figures[k].panels[s].sweep;
+      const ClaimPanel& panel = figures[k].panels[s];
+      const std::string of = place + "/panels/" + std::to_string(s);
+      const std::string at = of + "/sweep";
+      const std::string& sweep = panel.sweep;
+      if (panel.stage.empty() != figures[k].panels.front().stage.empty())
+        problems.refuse(of,
+                        "is over another axis than the panel above: frequencies of stages have figures of their own");
+      if (!panel.stage.empty()) {
+        check_stage_name(problems, of + "/stage", panel.stage, stage_names);
+        for (const auto& [given, key] : {std::pair(!sweep.empty(), "sweep"), {!panel.quantity.empty(), "quantity"}})
+          if (given) problems.refuse(of + "/" + key, "is not read by a panel of a stage");
+        continue;
+      }
       check_sweep_name(problems, at, sweep, names);
       const auto found = std::ranges::find(sweeps, sweep, &ClaimSweep::name);
       if (found == sweeps.end()) continue;

@@ -28,11 +28,19 @@ struct SetValue {
   std::string same_as;  ///< JSON pointer
 };
 
+/// The study's stage with other values, for conditions on its natural frequencies.
+struct ClaimStage {
+  std::string name;
+  std::vector<OptionSet> sets;  ///< values of any kind that differ from the study
+  std::vector<SetValue> at;     ///< numbers that differ from that
+};
+
 /// A sweep of the conditions.
 struct ClaimSweep {
   std::string name;
   studies::Axis axis = {studies::speed_parameter, 0.2, 3.5, 661};
-  std::vector<SetValue> at;  ///< further differences from the study
+  std::vector<OptionSet> sets;  ///< values of any kind that differ from the study
+  std::vector<SetValue> at;     ///< numbers that differ from that
   std::vector<studies::Direction> directions = {studies::Direction::up};
   std::optional<int> recorded_periods;  ///< if not the study's: extrema of chaos need long records
   int screening_points = 30;            ///< of a screening, cold
@@ -41,20 +49,22 @@ struct ClaimSweep {
 };
 
 enum class ConditionKind {
-  share,       ///< part of the points with this regime
-  count,       ///< number of points with this regime
-  change,      ///< value where one regime changes to another
-  sequence,    ///< regimes that follow one another
-  value,       ///< a statistic of a quantity
-  reduction,   ///< ratio of a quantity's first value to its last; never above the first
-  peaks,       ///< local maxima of a quantity at given values
-  jump,        ///< a discontinuity of a quantity of one regime, or two attractors of one regime at the same value
-  variation,   ///< largest relative change of the Poincare range between neighbours; a new regime counts 1
-  agreement,   ///< share of points where both kinds of mesh have the same regime, and correlation of their ranges
-  decreasing,  ///< the largest value of a quantity falls from sweep to sweep
+  share,        ///< part of the points with this regime
+  count,        ///< number of points with this regime
+  change,       ///< value where one regime changes to another
+  sequence,     ///< regimes that follow one another
+  value,        ///< a statistic of a quantity
+  reduction,    ///< ratio of a quantity's first value to its last; never above the first
+  peaks,        ///< local maxima of a quantity at given values
+  jump,         ///< a discontinuity of a quantity of one regime, or two attractors of one regime at the same value
+  variation,    ///< largest relative change of the Poincare range between neighbours; a new regime counts 1
+  agreement,    ///< share of points where both kinds of mesh have the same regime, and correlation of their ranges
+  decreasing,   ///< the largest value of a quantity falls from sweep to sweep
+  curve,        ///< a quantity at given values of the parameter, compared with published numbers
+  frequencies,  ///< natural frequencies of a stage, compared with published ones
 };
 
-inline constexpr std::array<std::pair<std::string_view, ConditionKind>, 11> condition_kinds = {
+inline constexpr std::array<std::pair<std::string_view, ConditionKind>, 13> condition_kinds = {
     {{"share", ConditionKind::share},
      {"count", ConditionKind::count},
      {"change", ConditionKind::change},
@@ -65,7 +75,9 @@ inline constexpr std::array<std::pair<std::string_view, ConditionKind>, 11> cond
      {"jump", ConditionKind::jump},
      {"variation", ConditionKind::variation},
      {"agreement", ConditionKind::agreement},
-     {"decreasing", ConditionKind::decreasing}}};
+     {"decreasing", ConditionKind::decreasing},
+     {"curve", ConditionKind::curve},
+     {"frequencies", ConditionKind::frequencies}}};
 
 /// Default for a condition on peaks.
 inline constexpr double default_location_tolerance = 0.1;
@@ -73,6 +85,9 @@ inline constexpr double default_prominence = 0.1;
 
 enum class Which { first, last };
 enum class Statistic { min, mean, max };
+
+/// Types of modes; `other` if the planets are unlike or unevenly spaced [model/modes.hpp].
+inline constexpr std::array<std::string_view, 4> mode_types = {"rotational", "translational", "planet", "other"};
 
 /// A condition on a sweep. Its kind determines which members it uses [studies/claims.cpp]; validate() requires them.
 struct Condition {
@@ -87,12 +102,20 @@ struct Condition {
   std::optional<Which> which;        ///< change: of several, along the rising parameter; the first if not given
   std::vector<double> within;        ///< change: least and greatest value
   std::optional<double> at_least, at_most;
-  std::string quantity;                      ///< of claim_quantities
+  std::string quantity;                      ///< of claim_quantities, or a column of stages [claims/judging.hpp]
   std::optional<Statistic> statistic;        ///< value: the largest if not given
   std::vector<double> peak_locations;        ///< peaks
   std::optional<double> location_tolerance;  ///< peaks: relative distance from a place
   std::optional<double> prominence;          ///< peaks: in parts of the largest value
   std::optional<double> correlation;         ///< agreement: of the two ranges
+  std::vector<double> data_at, data;         ///< curve: values of the parameter, and published values of the quantity
+  std::optional<double> tolerance;           ///< curve: in parts of the largest published value
+  std::optional<studies::Direction> direction;  ///< curve: of the sweep; the one of the verdicts if not given
+  std::string stage;                            ///< frequencies: of ClaimsOptions::stages
+  std::string mode_type;                        ///< frequencies: of mode_types; empty: all modes
+  std::vector<double> frequencies_Hz;           ///< frequencies: all different ones of that type
+  std::vector<double> tolerance_Hz;             ///< frequencies: one for all of them, or one each
+  std::optional<int> multiplicity;              ///< frequencies: of each of them
 };
 
 /// Quantities of a point for conditions; those of a mesh are of planet 1. [b_c], exponent per tau.
@@ -121,10 +144,13 @@ enum class Reading {
 
 enum class MeshSide { sun_planet, ring_planet };
 
-/// A bifurcation diagram of the deflection of planet 1's mesh.
+/// A bifurcation diagram of the deflection of planet 1's mesh. Or a quantity along a sweep in all its directions, or
+/// the natural frequencies of a stage, each with the published numbers of the claims.
 struct ClaimPanel {
   std::string sweep;
   MeshSide mesh = MeshSide::sun_planet;
+  std::string quantity;  ///< instead of the diagram, along the sweep
+  std::string stage;     ///< instead of a sweep: the natural frequencies of one of ClaimsOptions::stages
   std::string title;
 };
 
@@ -187,6 +213,7 @@ struct ClaimsOptions {
   std::vector<Reading> readings = {Reading::evidence};          ///< the first is the verdict, others stand beside it
   PrintedDots printed;
   std::vector<ClaimSweep> sweeps;
+  std::vector<ClaimStage> stages;
   std::vector<Claim> claims;
   std::vector<ClaimFigure> figures;
   Screening screening;

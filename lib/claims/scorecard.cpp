@@ -20,6 +20,7 @@
 #include "input/recorded_study.hpp"
 #include "input/stage_completion.hpp"
 #include "reports/markdown.hpp"
+#include "reports/plot_output.hpp"
 #include "store/identity.hpp"
 
 namespace epicyclic::claims {
@@ -167,11 +168,14 @@ std::string scorecard_summary(const Scorecard& card) {
   if (card.holding_inert() > 0)
     text += fmt::format(", {} of them on sweeps along which no quantity of the claim changes, by symmetry for example",
                         card.holding_inert());
-  text += fmt::format(
-      " ({}points {}).\n\n",
-      card.scored.front().reading == Reading::printed ? "regimes as a printed diagram shows them, " : "",
-      card.scored.front().start == studies::Start::cold ? "that start cold"
-                                                        : "whose initial state continues from the previous point");
+  if (card.options.sweeps.empty())
+    text += ".\n\n";
+  else
+    text += fmt::format(
+        " ({}points {}).\n\n",
+        card.scored.front().reading == Reading::printed ? "regimes as a printed diagram shows them, " : "",
+        card.scored.front().start == studies::Start::cold ? "that start cold"
+                                                          : "whose initial state continues from the previous point");
   text += senses_text(card);
   text += "| claim | where | what | published |";
   std::string line = "|---|---|---|---|";
@@ -308,34 +312,146 @@ std::vector<std::array<double, 2>> section_dots(const studies::PointSource& poin
   return dots;
 }
 
+/// Poincare points of planet 1's mesh.
+figures::FigureRange add_diagram(figures::Sketch& sketch, const ClaimPanel& panel, const Scorecard& card,
+                                 const SweepPoints& points) {
+  const auto dots = section_dots(points(panel.sweep), panel.mesh);
+  figures::FigureRange x;
+  figures::FigureRange y;
+  for (const auto& [value, delta] : dots) {
+    x.include(value);
+    y.include(delta);
+  }
+  const std::string symbol = panel.mesh == MeshSide::sun_planet ? "δ_{sp,1} / b_c" : "δ_{rp,1} / b_c";
+  const std::string words = panel.title.empty() ? symbol : figures::verbatim_text(panel.title) + "    " + symbol;
+  // The axis spans at least ten recurrence tolerances, so that smaller widths appear as a point.
+  const double middle = 0.5 * (y.low + y.high);
+  const double axis = axis_length(y.low, y.high, card.options.recording.recurrence_tolerance);
+  if (y.high - y.low < axis)
+    for (const double side : {-0.5, 0.5}) y.include(middle + side * axis);
+  sketch.panel(words, y.widened(figures::figure_margin));
+  constexpr double dot = 0.25;
+  sketch.add(dots, figures::dots(figures::ink::blue, dot));
+  return x;
+}
+
+/// Conditions of all claims.
+std::vector<const Condition*> conditions_of(const Scorecard& card) {
+  std::vector<const Condition*> all;
+  for (const Claim& claim : card.options.claims)
+    for (const Condition& c : claim.conditions) all.push_back(&c);
+  return all;
+}
+
+std::string style_of_data() { return figures::dots(figures::ink::red, 1.4, 6); }
+
+/// A panel for sets of places, with its title inside at the top.
+/// @returns the axis
+figures::FigureRange add_panel(figures::Sketch& sketch, const ClaimPanel& panel, const std::string& symbol,
+                               const std::vector<std::vector<std::array<double, 2>>>& sets,
+                               const figures::FigureRange& x) {
+  figures::FigureRange y;
+  for (const auto& set : sets)
+    for (const auto& row : set) y.include(row[1]);
+  // What differs by rounding alone appears as one value.
+  constexpr double rounding = 1e-6;
+  constexpr double around_one = 0.01;
+  const double middle = 0.5 * (y.low + y.high);
+  if (!y.empty() && y.high - y.low < rounding * std::abs(middle))
+    for (const double side : {-around_one, around_one}) y.include(middle * (1.0 + side));
+  const figures::FigureRange axis = y.widened(figures::figure_margin);
+  sketch.panel(symbol, axis);
+  if (!panel.title.empty())
+    sketch.letters(std::vector<std::array<double, 2>>{{0.5 * (x.low + x.high), axis.high}},
+                   figures::verbatim_text(panel.title), "center offset character 0,-0.9 boxed");
+  return axis;
+}
+
+/// A quantity along a sweep, in all its directions, with what is published of it: values, and bounds of changes.
+figures::FigureRange add_curve(figures::Sketch& sketch, const ClaimPanel& panel, const Scorecard& card,
+                               const ClaimSeries& series) {
+  using Rows = std::vector<std::array<double, 2>>;
+  const auto rows_of = [&](const std::vector<ClaimPoint>& points) {
+    Rows rows;
+    for (const ClaimPoint& p : points)
+      rows.push_back({p.value, p.reached ? p.quantity(panel.quantity) : std::numeric_limits<double>::quiet_NaN()});
+    return rows;
+  };
+  Rows data;
+  for (const Condition* c : conditions_of(card))
+    if (c->kind == ConditionKind::curve && c->sweep == panel.sweep && c->quantity == panel.quantity)
+      for (std::size_t k = 0; k < c->data.size(); ++k) data.push_back({c->data_at[k], c->data[k]});
+  const Rows rows = rows_of(series.points);
+  const Rows other = rows_of(series.other);
+  figures::FigureRange x;
+  for (const auto& row : rows) x.include(row[0]);
+  const figures::FigureRange y =
+      add_panel(sketch, panel, reports::quantity_label(panel.quantity, false), {rows, other, data}, x);
+  const bool both = !other.empty();
+  const auto word = [&](studies::Direction d) {
+    return both ? (d == studies::Direction::up ? "up" : "down") : "computed";
+  };
+  sketch.add(rows, figures::solid(figures::ink::blue), word(series.direction));
+  if (both) sketch.add(other, figures::dashed(figures::ink::green, 2, "(10,7)"), word(studies::Direction::down));
+  sketch.add(data, style_of_data(), data.empty() ? "" : "published");
+  Rows bounds;
+  constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+  for (const Condition* c : conditions_of(card))
+    if (c->kind == ConditionKind::change && c->sweep == panel.sweep)
+      for (const double bound : c->within)
+        for (const auto& [value, height] : {std::pair(bound, y.low), {bound, y.high}, {gap, gap}})
+          bounds.push_back({value, height});
+  sketch.add(bounds, figures::dashed(figures::ink::red, 1.2, "(10,7)"), bounds.empty() ? "" : "bounds of a change");
+  return x;
+}
+
+/// Natural frequencies of a stage by their number, with the published ones.
+figures::FigureRange add_modes(figures::Sketch& sketch, const ClaimPanel& panel, const Scorecard& card,
+                               const std::vector<ClaimMode>& modes) {
+  std::vector<std::array<double, 2>> computed;
+  for (std::size_t k = 0; k < modes.size(); ++k)
+    computed.push_back({static_cast<double>(k + 1), modes[k].frequency_Hz});
+  std::vector<std::array<double, 2>> data;
+  for (const Condition* c : conditions_of(card)) {
+    if (c->kind != ConditionKind::frequencies || c->stage != panel.stage) continue;
+    const ModeMatch match = matched_modes(*c, modes);
+    for (std::size_t k = 0; k < std::min(match.modes.size(), match.published.size()); ++k)
+      data.push_back({static_cast<double>(match.modes[k] + 1), match.published[k]});
+  }
+  figures::FigureRange x;
+  x.include(0.5);
+  x.include(static_cast<double>(modes.size()) + 0.5);
+  (void)add_panel(sketch, panel, "f / Hz", {computed, data}, x);
+  sketch.add(computed, figures::dots(figures::ink::blue, 0.8), "computed");
+  sketch.add(data, style_of_data(), data.empty() ? "" : "published");
+  return x;
+}
+
 }  // namespace
 
 std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder, const Scorecard& card,
-                                            const std::string& title, const SweepPoints& points) {
+                                            const ClaimRecord& record, const std::string& title,
+                                            const SweepPoints& points) {
   std::vector<DrawnFigure> drawn;
   for (const ClaimFigure& figure : card.options.figures) {
     figures::Sketch sketch(figure.name);
+    const auto is_diagram = [](const ClaimPanel& panel) { return panel.stage.empty() && panel.quantity.empty(); };
+    if (!std::ranges::all_of(figure.panels, is_diagram))
+      sketch.command("set style textbox opaque noborder fillcolor '#ffffff' margins 0.4,0.4");
     figures::FigureRange x;
-    std::string parameter;
+    std::string abscissa;
     for (const ClaimPanel& panel : figure.panels) {
-      const auto sweep = std::ranges::find(card.options.sweeps, panel.sweep, &ClaimSweep::name);
-      const auto dots = section_dots(points(panel.sweep), panel.mesh);
-      figures::FigureRange y;
-      for (const auto& [value, delta] : dots) {
-        x.include(value);
-        y.include(delta);
+      figures::FigureRange of;
+      if (!panel.stage.empty()) {
+        of = add_modes(sketch, panel, card, record.at(panel.stage).modes);
+        abscissa = "number of the natural frequency";
+      } else {
+        of = panel.quantity.empty() ? add_diagram(sketch, panel, card, points)
+                                    : add_curve(sketch, panel, card, record.at(panel.sweep));
+        abscissa = parameter_label(std::ranges::find(card.options.sweeps, panel.sweep, &ClaimSweep::name)->axis.name);
       }
-      parameter = sweep->axis.name;
-      const std::string symbol = panel.mesh == MeshSide::sun_planet ? "δ_{sp,1} / b_c" : "δ_{rp,1} / b_c";
-      const std::string words = panel.title.empty() ? symbol : figures::verbatim_text(panel.title) + "    " + symbol;
-      // The axis spans at least ten recurrence tolerances, so that smaller widths appear as a point.
-      const double middle = 0.5 * (y.low + y.high);
-      const double axis = axis_length(y.low, y.high, card.options.recording.recurrence_tolerance);
-      if (y.high - y.low < axis)
-        for (const double side : {-0.5, 0.5}) y.include(middle + side * axis);
-      sketch.panel(words, y.widened(figures::figure_margin));
-      constexpr double dot = 0.25;
-      sketch.add(dots, figures::dots(figures::ink::blue, dot));
+      x.include(of.low);
+      x.include(of.high);
     }
     constexpr double edge = 0.01;  // the frame would hide half of the first dots and of the last
     constexpr int height_alone = 1100;
@@ -343,8 +459,8 @@ std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder,
     const figures::FigureCanvas canvas{
         1800, figure.panels.size() == 1 ? height_alone : height_each * static_cast<int>(figure.panels.size())};
     const std::string words = figures::verbatim_text(figure.title.empty() ? title : figure.title + ": " + title);
-    drawn.push_back({folder / (figure.name + ".png"),
-                     sketch.draw(folder, {words, parameter_label(parameter), ""}, x.widened(edge), {}, {}, canvas)});
+    drawn.push_back(
+        {folder / (figure.name + ".png"), sketch.draw(folder, {words, abscissa, ""}, x.widened(edge), {}, {}, canvas)});
   }
   return drawn;
 }

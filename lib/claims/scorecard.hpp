@@ -73,9 +73,10 @@ struct RecordedDifference {
 /// The points of a sweep by its name.
 using SweepPoints = std::function<studies::PointSource(const std::string& sweep)>;
 
+/// @param record  with the first of the starts, by evidence
 /// @throws OutputError, and what reading points throws
 [[nodiscard]] std::vector<reports::DrawnFigure> draw_claim_figures(const std::filesystem::path& folder,
-                                                                   const Scorecard& card, const std::string& title,
-                                                                   const SweepPoints& points);
+                                                                   const Scorecard& card, const ClaimRecord& record,
+                                                                   const std::string& title, const SweepPoints& points);
 
 }  // namespace epicyclic::claims

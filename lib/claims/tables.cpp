@@ -1,5 +1,6 @@
 // The tables of a study of claims (options.hpp): keys, units, bounds, meaning.
 
+#include "claims/judging.hpp"
 #include "claims/kind.hpp"
 #include "input/plan_tables.hpp"
 
@@ -27,6 +28,29 @@ std::vector<std::pair<std::string, E>> named(const Names& names) {
   return all;
 }
 
+/// Any JSON value, kept as its text.
+Field<OptionSet> value_field() {
+  Field<OptionSet> field;
+  field.key = "value";
+  field.description = "What stands there instead.";
+  field.read = [](const nlohmann::json& value, const std::string&, OptionSet& set, ReadContext&) {
+    set.value = value.dump();
+  };
+  field.write = [](const OptionSet& set) { return nlohmann::json::parse(set.value, nullptr, false); };
+  field.schema = [] { return nlohmann::ordered_json::object(); };
+  return field;
+}
+
+const Table<OptionSet>& option_set_table() {
+  static const auto table = [] {
+    Table<OptionSet> t("option_set", "A value of the input that is replaced.");
+    t.text("pointer", &OptionSet::pointer, "JSON pointer to it.").required();
+    t.custom(value_field()).required();
+    return t;
+  }();
+  return table;
+}
+
 const Table<SetValue>& set_value_table() {
   static const auto table = [] {
     Table<SetValue> t("set_value", "A value in place of the study's.");
@@ -40,14 +64,20 @@ const Table<SetValue>& set_value_table() {
   return table;
 }
 
+/// Of conditions.
+std::vector<std::string> quantity_names() {
+  std::vector<std::string> names(claim_quantities.begin(), claim_quantities.end());
+  names.insert(names.end(), column_quantities().begin(), column_quantities().end());
+  return names;
+}
+
 const Table<Condition>& condition_table() {
   static const auto table = [] {
     Table<Condition> t("condition", "A condition on a sweep.");
-    t.choice(
-         "kind", &Condition::kind, named<ConditionKind>(condition_kinds),
-         "What is measured: the share or count of points of a regime, the value of a change, a sequence of regimes, a "
-         "statistic of a quantity, the factor by which it falls, its peaks, a jump of it, the largest variation "
-         "between neighbours, the agreement of both kinds of mesh, or whether it decreases from sweep to sweep.")
+    t.choice("kind", &Condition::kind, named<ConditionKind>(condition_kinds),
+             "What is measured. Of regimes: share, count, change, sequence, variation between neighbours, agreement of "
+             "both kinds of mesh. Of a quantity: a statistic (value), reduction, peaks, jump, decreasing from sweep to "
+             "sweep, published values (curve). Of a stage: published natural frequencies.")
         .required();
     t.text("sweep", &Condition::sweep, "The sweep, by its name.");
     t.texts("sweeps", &Condition::sweeps, list_most, "Sweeps one after the other, for decreasing.");
@@ -65,11 +95,9 @@ const Table<Condition>& condition_table() {
     t.numbers("within", &Condition::within, any_value, 1, 2, "Least and greatest value of a change.");
     t.number("at_least", &Condition::at_least, any_value, "Least that is measured.");
     t.number("at_most", &Condition::at_most, any_value, "Most that is measured.");
-    std::vector<std::string> quantities;
-    for (const auto name : claim_quantities) quantities.emplace_back(name);
-    t.choice("quantity", &Condition::quantity, quantities,
+    t.choice("quantity", &Condition::quantity, quantity_names(),
              "Of planet 1: range and maximum of the deflections in time, range of their Poincare points; spread of the "
-             "planets [b_c]; largest Lyapunov exponent [per tau].");
+             "planets [b_c]; largest Lyapunov exponent [per tau]; or a column of points.csv, in its unit.");
     t.choice("statistic", &Condition::statistic,
              std::vector<std::pair<std::string, Statistic>>{
                  {"min", Statistic::min}, {"mean", Statistic::mean}, {"max", Statistic::max}},
@@ -79,6 +107,21 @@ const Table<Condition>& condition_table() {
              "Relative distance of a peak from one [-].");
     t.number("prominence", &Condition::prominence, between(0, 1), "Of a peak, in parts of the largest value [-].");
     t.number("correlation", &Condition::correlation, between(-1, 1), "Least correlation of both ranges [-].");
+    t.numbers("data_at", &Condition::data_at, any_value, 1, list_most,
+              "Values of the sweep's parameter at which a curve is published.");
+    t.numbers("data", &Condition::data, any_value, 1, list_most,
+              "Published values of the quantity there, in its unit.");
+    t.number("tolerance", &Condition::tolerance, above_up_to(0, 1e6),
+             "Largest difference from the data, in parts of the largest value of the data [-].");
+    t.choice("direction", &Condition::direction, input::direction_choices(), "Direction of the sweep with the curve.");
+    t.text("stage", &Condition::stage, "The stage of the frequencies, by its name.");
+    t.choice("mode_type", &Condition::mode_type, std::vector<std::string>(mode_types.begin(), mode_types.end()),
+             "Type of the modes; all if it is not given.");
+    t.numbers("frequencies_Hz", &Condition::frequencies_Hz, between(0, 1e12), 1, list_most,
+              "All published natural frequencies of that type, a multiple one once [Hz].");
+    t.numbers("tolerance_Hz", &Condition::tolerance_Hz, above_up_to(0, 1e12), 1, list_most,
+              "Largest difference from a frequency: one for all of them, or one each [Hz].");
+    t.integer("multiplicity", &Condition::multiplicity, between(1, 64), "Multiplicity of each of them [-].");
     return t;
   }();
   return table;
@@ -98,36 +141,18 @@ const Table<ParameterTarget>& target_table() {
 
 const Table<ClaimPanel>& panel_table() {
   static const auto table = [] {
-    Table<ClaimPanel> t("claim_panel", "A bifurcation diagram of the deflection of planet 1's mesh.");
-    t.text("sweep", &ClaimPanel::sweep, "The sweep, by its name.").required();
+    Table<ClaimPanel> t("claim_panel",
+                        "A bifurcation diagram of the deflection of planet 1's mesh; or a quantity along a sweep, or "
+                        "the natural frequencies of a stage, with the published numbers of the claims.");
+    t.text("sweep", &ClaimPanel::sweep, "The sweep, by its name.");
+    t.choice("quantity", &ClaimPanel::quantity, quantity_names(),
+             "Instead of a bifurcation diagram: along the sweep, in all its directions.");
+    t.text("stage", &ClaimPanel::stage, "Instead of a sweep: the natural frequencies of this stage.");
     t.choice("mesh", &ClaimPanel::mesh,
              std::vector<std::pair<std::string, MeshSide>>{{"sun_planet", MeshSide::sun_planet},
                                                            {"ring_planet", MeshSide::ring_planet}},
              "Which mesh.");
     t.text("title", &ClaimPanel::title, "What it shows.");
-    return t;
-  }();
-  return table;
-}
-
-/// Any JSON value, kept as its text.
-Field<OptionSet> value_field() {
-  Field<OptionSet> field;
-  field.key = "value";
-  field.description = "What stands there instead.";
-  field.read = [](const nlohmann::json& value, const std::string&, OptionSet& set, ReadContext&) {
-    set.value = value.dump();
-  };
-  field.write = [](const OptionSet& set) { return nlohmann::json::parse(set.value, nullptr, false); };
-  field.schema = [] { return nlohmann::ordered_json::object(); };
-  return field;
-}
-
-const Table<OptionSet>& option_set_table() {
-  static const auto table = [] {
-    Table<OptionSet> t("option_set", "A value of the input that an option replaces.");
-    t.text("pointer", &OptionSet::pointer, "JSON pointer to it.").required();
-    t.custom(value_field()).required();
     return t;
   }();
   return table;
@@ -159,7 +184,9 @@ const Table<ClaimSweep>& claim_sweep_table() {
     t.number("from", of(&Axis::from), any_value, "First value, in its unit.").required();
     t.number("to", of(&Axis::to), any_value, "Last value, in its unit.").required();
     t.integer("points", of(&Axis::points), between(2, 100000), "Number of points, evenly spaced, ends included [-].");
-    t.objects("at", &ClaimSweep::at, set_value_table(), list_most, "Other values that differ from the study.");
+    t.objects("sets", &ClaimSweep::sets, option_set_table(), list_most,
+              "Values of any kind that differ from the study, such as an array for another number of planets.");
+    t.objects("at", &ClaimSweep::at, set_value_table(), list_most, "Numbers that differ from that.");
     t.choices("directions", &ClaimSweep::directions, input::direction_choices(),
               "Directions of the sweep with continued initial states.");
     t.integer("recorded_periods", &ClaimSweep::recorded_periods, between(1, 1e5),
@@ -177,6 +204,18 @@ const Table<ClaimSweep>& claim_sweep_table() {
 }
 
 namespace {
+
+const Table<ClaimStage>& claim_stage_table() {
+  static const auto table = [] {
+    Table<ClaimStage> t("claim_stage", "A stage whose natural frequencies claims speak of.");
+    t.text("name", &ClaimStage::name, "Its name.").required();
+    t.objects("sets", &ClaimStage::sets, option_set_table(), list_most,
+              "Values of any kind that differ from the study.");
+    t.objects("at", &ClaimStage::at, set_value_table(), list_most, "Numbers that differ from that.");
+    return t;
+  }();
+  return table;
+}
 
 std::vector<std::pair<std::string, Reading>> reading_choices() {
   return {{"evidence", Reading::evidence}, {"printed", Reading::printed}};
@@ -366,8 +405,9 @@ const Table<Study>& claims_table() {
     t.object("printed", of(&ClaimsOptions::printed), printed_dots_table());
     input::add_recording(t);
     input::add_classification(t);
-    t.objects("sweeps", of(&ClaimsOptions::sweeps), claim_sweep_table(), 1000, "Sweeps that the claims speak of.")
-        .required();
+    t.objects("sweeps", of(&ClaimsOptions::sweeps), claim_sweep_table(), 1000, "Sweeps that the claims speak of.");
+    t.objects("stages", of(&ClaimsOptions::stages), claim_stage_table(), 1000,
+              "Stages whose natural frequencies the claims speak of.");
     t.objects("claims", of(&ClaimsOptions::claims), claim_table(), 1000, "What is claimed.").required();
     t.objects("figures", of(&ClaimsOptions::figures), claim_figure_table(), 100, "Figures as they are published.");
     t.object("screening", of(&ClaimsOptions::screening), screening_table());

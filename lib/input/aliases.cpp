@@ -150,9 +150,12 @@ class Renamer {
   }
 
   void rename_members(json& object, const std::string& place, const std::string& at) const {
-    // The value that an option of a choice sets belongs to the pointer that it names.
-    const bool sets = is_at("/study/choices/N/options/N/sets/N", place) && object.contains("pointer") &&
-                      object["pointer"].is_string();
+    // The value that is set belongs to the pointer that it names.
+    const auto is_set = [&](std::string_view list) { return is_at(list, place); };
+    const bool sets = std::ranges::any_of(std::array{"/study/choices/N/options/N/sets/N", "/study/sweeps/N/sets/N",
+                                                     "/study/stages/N/sets/N"},
+                                          is_set) &&
+                      object.contains("pointer") && object["pointer"].is_string();
     const std::string target = sets ? object["pointer"].get<std::string>() : std::string();
     for (auto& [name, member] : object.items()) {
       if (is_bookkeeping(name)) continue;

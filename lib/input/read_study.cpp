@@ -58,7 +58,7 @@ bool judge_stage(const Study& study, const std::string& root, F not_computed, Re
   const bool sound = unread.empty();
   if (study.stage.planet_count < 1 || study.stage.planet_count > gear::planets_max) return sound;
   auto rules = gear::problems_for_modes(study.stage);
-  if (study.has_dynamics()) {
+  if (study.integrates()) {
     const auto more = gear::problems_for_dynamics(study.stage);
     rules.insert(rules.end(), more.begin(), more.end());
     if (rules.empty() && study.stage.mesh_periods() > 1 && !study.plan.kind()->with_shaft_errors)
@@ -113,6 +113,7 @@ std::pair<Study, bool> read_study(json& whole, bool bare, ReadContext& context, 
     study_table().read(whole, "", study, context);
   }
 
+  if (study.stage.is_pair() && find_at(whole, root + "/planets/count") == nullptr) study.stage.planet_count = 1;
   // A value that could not be computed is not missing.
   if (!complete)
     std::erase_if(context.findings, [&](const Finding& finding) {

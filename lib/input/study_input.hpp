@@ -94,6 +94,8 @@ struct Study {
   [[nodiscard]] std::string_view kind() const { return plan.name(); }
   /// Does the study compute a response?
   [[nodiscard]] bool has_dynamics() const { return plan.kind() != nullptr; }
+  /// Does it integrate equations of motion, or need natural frequencies at most?
+  [[nodiscard]] bool integrates() const;
   /// Is it computed point by point?
   [[nodiscard]] bool has_points() const;
 

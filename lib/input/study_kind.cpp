@@ -43,6 +43,10 @@ studies::SweepOptions& Plan::sweep() {
   return kind_->own_sweep(options_);
 }
 
+bool Study::integrates() const {
+  return has_dynamics() && (plan.kind()->moves == nullptr || plan.kind()->moves(plan.options()));
+}
+
 bool Study::has_points() const { return has_dynamics() && plan.kind()->plan != nullptr; }
 
 studies::SweepOptions Study::sweep() const {

@@ -83,6 +83,9 @@ struct StudyKind {
   /// Does "operation" give the speed of the study, if no axis is the speed?
   bool at_given_speed = true;
 
+  /// Do these options integrate? Null: they do. Others need a stage for modes alone.
+  bool (*moves)(const std::any& options) = nullptr;
+
   /// Rules of the options that span keys.
   void (*check)(const Study& study, const IsBad& is_bad, ReadContext& context) = nullptr;
   /// Values that its options put into the input, if there are no other errors.

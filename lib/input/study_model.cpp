@@ -304,7 +304,7 @@ std::vector<std::string> texts(std::vector<gear::Warning> warnings) {
 std::vector<std::string> warnings(const LoadedInput& input) {
   const Study& study = input.study;
   std::vector<std::string> lines;
-  if (!study.has_dynamics()) {
+  if (!study.integrates()) {
     lines = gear_warnings(input);
   } else {
     std::vector<gear::Warning> all;

@@ -475,16 +475,17 @@ const Table<Mesh>& mesh_table() {
   return table;
 }
 
+bool is_a_pair(const void* stage) { return static_cast<const Stage*>(stage)->is_pair(); }
+
 const Table<Stage>& lumped_table() {
   static const auto table = [] {
     Table<Stage> t("lumped", "The stage as lumped values.");
     t.object("sun", itself, sun_table()).required();
-    const auto pair = [](const void* stage) { return static_cast<const Stage*>(stage)->is_pair(); };
-    t.object("ring", of_stage_only(&Stage::ring), ring_table()).required_unless(pair);
-    t.object("carrier", of_stage_only(&Stage::carrier), carrier_table()).required_unless(pair);
+    t.object("ring", of_stage_only(&Stage::ring), ring_table()).required_unless(is_a_pair);
+    t.object("carrier", of_stage_only(&Stage::carrier), carrier_table()).required_unless(is_a_pair);
     t.object("planet", &Stage::planet, planet_table()).required();
     t.object("sun_planet_mesh", &Stage::sun_planet_mesh, mesh_table()).required();
-    t.object("ring_planet_mesh", of_stage_only(&Stage::ring_planet_mesh), mesh_table()).required_unless(pair);
+    t.object("ring_planet_mesh", of_stage_only(&Stage::ring_planet_mesh), mesh_table()).required_unless(is_a_pair);
     t.number("ring_mesh_lead_1", of_stage_only(&Stage::ring_mesh_lead_1), between(-1, 1),
              "Share of a mesh period by which the ring-planet mesh leads the sun-planet mesh [-].");
     return t;
@@ -496,8 +497,8 @@ const Table<Stage>& planets_table() {
   static const auto table = [] {
     Table<Stage> t("planets", "How many planets there are, and where.");
     t.integer("count", &Stage::planet_count, between(1, gear::planets_max),
-              "Number of planets [-], 2 to 6; 1 of a pair.")
-        .required();
+              "Number of planets [-], 2 to 6; 1 of a pair, for which it need not be given.")
+        .required_unless(is_a_pair);
     t.numbers("angles_deg", &Stage::angles_deg, between(-largest_angle_deg, largest_angle_deg), 1, gear::planets_max,
               "Angle of each planet [deg]; equally spaced from 0 if not given.");
     t.number("centre_distance_mm", &Stage::centre_distance_mm, length,
@@ -687,7 +688,7 @@ const Table<Stage>& stage_table() {
              "boundary `fixed_sun` it is the carrier or the ring.");
     t.number("carrier_to_sun_speed", &Stage::carrier_to_sun_speed, between(-100, 0.99),
              "Speed of the carrier over that of the sun with boundary `free` [-].");
-    t.object("planets", itself, planets_table()).required();
+    t.object("planets", itself, planets_table()).required_unless(is_a_pair);
     t.object("load", &Stage::load, load_table());
     t.object("catalogue", present(&Stage::catalogue), catalogue_table());
     t.object("lumped", itself, lumped_table()).required();
@@ -775,7 +776,10 @@ std::string schema_text() {
   ordered_json catalogue_stage = catalogue_stage_schema(stage);
   // The keys of lumped_table() that are not required of a pair.
   stage["if"] = {{"properties", {{"boundary", {{"const", "pair"}}}}}, {"required", {"boundary"}}};
-  stage["else"] = {{"properties", {{"lumped", {{"required", {"ring", "carrier", "ring_planet_mesh"}}}}}}};
+  stage["else"] = {
+      {"required", {"planets"}},
+      {"properties",
+       {{"planets", {{"required", {"count"}}}}, {"lumped", {{"required", {"ring", "carrier", "ring_planet_mesh"}}}}}}};
   for (ordered_json* file : {&study, &stage, &catalogue_stage})
     (*file)["properties"][schema_key] = {
         {"type", "string"}, {"description", "Of a file: where the schema is, for editors. Nothing depends on it."}};

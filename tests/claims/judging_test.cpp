@@ -515,6 +515,15 @@ TEST(Claims, OnQuantitiesBelowZero) {
   EXPECT_FALSE(judge(c, r).holds);
 }
 
+Condition published_curve(std::vector<double> at, std::vector<double> values, double tolerance) {
+  Condition c = condition(ConditionKind::curve);
+  c.quantity = "delta_sp_range";
+  c.data_at = std::move(at);
+  c.data = std::move(values);
+  c.tolerance = tolerance;
+  return c;
+}
+
 /// Where the options are refused, if once.
 std::string refused_at(const ClaimsOptions& options) {
   const auto problems = options.problems();
@@ -573,6 +582,63 @@ TEST(ClaimsOptions, RefuseWhatNobodyWouldJudge) {
             "/parameters/1/targets/0/pointer");
 }
 
+FreeParameter one_parameter() {
+  return {"x", "", "", 0.0, 1.0, ParameterScale::linear, {{"/stage/a", 1, 1, ""}}, "", ""};
+}
+
+TEST(ClaimsOptions, RefusePublishedNumbersThatDoNotFit) {
+  const std::string place = "/claims/0/conditions/0";
+  ClaimsOptions options;
+  ClaimSweep sweep;
+  sweep.name = "s";
+  options.sweeps = {sweep};
+  options.stages = {{"a", {}, {}}};
+  options.starts = {Start::continued};
+  options.claims = {{"C", "", "", "", 1.0, {published_curve({1.0, 2.0}, {1.0, 2.0}, 0.1)}}};
+  EXPECT_EQ(refused_at(options), "nowhere");
+  const auto place_of = [&](auto change) {
+    ClaimsOptions wrong = options;
+    change(wrong, wrong.claims[0].conditions[0]);
+    return refused_at(wrong);
+  };
+  EXPECT_EQ(place_of([](auto&, auto& c) { c.data.pop_back(); }), place + "/data");
+  EXPECT_EQ(place_of([](auto&, auto& c) { c.data = {0.0, 0.0}; }), place + "/data");
+  EXPECT_EQ(place_of([](auto&, auto& c) { c.data_at[1] = 4.0; }), place + "/data_at/1");
+  EXPECT_EQ(place_of([](auto&, auto& c) { c.tolerance.reset(); }), place + "/tolerance");
+  EXPECT_EQ(place_of([](auto&, auto& c) { c.at_least = 1.5; }), place + "/at_least");
+  EXPECT_EQ(place_of([](auto&, auto& c) { c.direction = Direction::down; }), place + "/direction");
+  EXPECT_EQ(place_of([](auto&, auto& c) { c.from = 1.0; }), place + "/from");
+  EXPECT_EQ(place_of([](auto&, auto& c) { c.frequencies_Hz = {1.0}; }), place + "/frequencies_Hz");
+  EXPECT_EQ(place_of([](auto& o, auto&) { o.stages[0].name = "s"; }), "/stages/0/name");
+  Condition modes;
+  modes.kind = ConditionKind::frequencies;
+  modes.stage = "a";
+  modes.frequencies_Hz = {1.0, 2.0, 3.0};
+  modes.tolerance_Hz = {0.1};
+  options.claims[0].conditions[0] = modes;
+  EXPECT_EQ(refused_at(options), "nowhere");
+  EXPECT_EQ(place_of([](auto&, auto& c) { c.stage = "b"; }), place + "/stage");
+  EXPECT_EQ(place_of([](auto&, auto& c) { c.sweep = "s"; }), place + "/sweep");
+  EXPECT_EQ(place_of([](auto&, auto& c) { c.tolerance_Hz = {0.1, 0.2}; }), place + "/tolerance_Hz");
+  EXPECT_EQ(place_of([](auto&, auto& c) { c.quantity = "delta_sp_range"; }), place + "/quantity");
+  EXPECT_EQ(place_of([](auto& o, auto&) { o.space.parameters = {one_parameter()}; }), place + "/kind");
+  // Without sweeps there are frequencies alone.
+  EXPECT_EQ(place_of([](auto& o, auto&) { o.sweeps.clear(); }), "nowhere");
+  EXPECT_EQ(place_of([](auto& o, auto&) {
+              o.figures = {{"f", "", {{"", MeshSide::sun_planet, "", "a", ""}}}};
+            }),
+            "nowhere");
+  EXPECT_EQ(place_of([](auto& o, auto&) {
+              o.figures = {{"f", "", {{"", MeshSide::sun_planet, "", "b", ""}}}};
+            }),
+            "/figures/0/panels/0/stage");
+  EXPECT_EQ(
+      place_of([](auto& o, auto&) {
+        o.figures = {{"f", "", {{"s", MeshSide::sun_planet, "", "", ""}, {"", MeshSide::sun_planet, "", "a", ""}}}};
+      }),
+      "/figures/0/panels/1");
+}
+
 /// A sweep of 29 points, from 0.2 to 3.
 ClaimsOptions options_with(const Condition& c) {
   ClaimsOptions options;
@@ -582,10 +648,6 @@ ClaimsOptions options_with(const Condition& c) {
   options.sweeps = {sweep};
   options.claims = {{"C", "", "", "", 1.0, {c}}};
   return options;
-}
-
-FreeParameter one_parameter() {
-  return {"x", "", "", 0.0, 1.0, ParameterScale::linear, {{"/stage/a", 1, 1, ""}}, "", ""};
 }
 
 TEST(ClaimsOptions, RefuseConditionsThatAlwaysHold) {
@@ -780,6 +842,110 @@ TEST(Claims, QuantitiesAreColumnsOfTheirNames) {
     for (const char* mesh : {"sp_", "rp_"})
       most = std::max(most, columns.at("load_sharing_" + (mesh + std::to_string(i))));
   EXPECT_EQ(point.quantity("load_sharing_max"), most);
+}
+
+TEST(Claims, AnyColumnOfNumbersIsAQuantity) {
+  constexpr std::size_t planets = 3;
+  PointResult r = test::numbered_points(planets)[0];
+  r.poincare_columns = 2 + 2 * planets;
+  r.poincare.assign(r.poincare_columns, 1.0);
+  const ClaimPoint point = claim_point(r, {}, Depth::in_full);
+  std::size_t compared = 0;
+  for (const store::PointColumn& c : store::point_columns(planets)) {
+    const auto* number = std::get_if<store::PointColumn::Getter<double>>(&c.value);
+    if (number == nullptr || std::ranges::find(column_quantities(), c.name) == column_quantities().end()) continue;
+    const double there = (*number)(r);
+    EXPECT_TRUE(point.quantity(c.name) == there || (std::isnan(there) && std::isnan(point.quantity(c.name)))) << c.name;
+    ++compared;
+  }
+  EXPECT_EQ(compared, column_quantities().size());
+  EXPECT_GT(compared, 30U);
+  for (const char* name : {"delta_sp_mean", "delta_sp_h1", "k_gamma_sp", "force_sun_bearing_rms"})
+    EXPECT_NE(std::ranges::find(column_quantities(), name), column_quantities().end()) << name;
+}
+
+/// Ranges 0, 2, 8 at 0, 1, 2; from above 0, 5, 8.
+ClaimRecord curves() {
+  ClaimRecord r = record("111", {0.0, 2.0, 8.0});
+  r["s"].other = record("111", {0.0, 5.0, 8.0})["s"].points;
+  return r;
+}
+
+TEST(Claims, OnACurveAreJudgedAtItsData) {
+  // Between points it is linear: 5 at 1.5. The tolerance is a part of the largest value.
+  Condition c = published_curve({0.0, 1.0, 1.5, 2.0}, {0.0, 2.0, 5.0, 8.0}, 1e-12);
+  EXPECT_TRUE(judge(c, curves()).holds);
+  c.data[1] = 2.4;
+  const ConditionOutcome off = judge(c, curves());
+  EXPECT_FALSE(off.holds);
+  EXPECT_EQ(off.measured, 0.75);
+  EXPECT_NE(off.text.find("most off by 5 %: 2 for 2.4 at 1"), std::string::npos) << off.text;
+  c.tolerance = 0.0501;
+  EXPECT_TRUE(judge(c, curves()).holds);
+  c.tolerance = 0.0499;
+  EXPECT_FALSE(judge(c, curves()).holds);
+  c.at_least = 0.75;
+  EXPECT_TRUE(judge(c, curves()).holds);
+  // What is nearer costs less.
+  c.at_least = 1.0;
+  const double near = judge(c, curves()).cost;
+  c.data[1] = 7.0;
+  EXPECT_GT(judge(c, curves()).cost, near);
+}
+
+TEST(Claims, OnACurveMayBeOfTheOtherDirection) {
+  Condition c = published_curve({1.0}, {5.0}, 1e-12);
+  EXPECT_FALSE(judge(c, curves()).holds);
+  c.direction = Direction::down;
+  EXPECT_TRUE(judge(c, curves()).holds);
+  c.direction = Direction::up;
+  EXPECT_FALSE(judge(c, curves()).holds);
+}
+
+TEST(Claims, OnACurveDoNotHoldWhereAPointFailed) {
+  const Condition c = published_curve({0.5, 2.0}, {1.0, 8.0}, 1e-6);
+  ClaimRecord r = record("1x1", {0.0, 2.0, 8.0});
+  EXPECT_FALSE(judge(c, r).holds);
+  EXPECT_NE(judge(c, r).text.find("not computed"), std::string::npos);
+}
+
+/// Three frequencies, one of them double.
+ClaimRecord stage_of_modes() {
+  ClaimRecord r;
+  r["a"].modes = {{0.0, "rotational", 1}, {100.04, "translational", 2}, {200.0, "rotational", 1}};
+  return r;
+}
+
+TEST(Claims, OnFrequenciesAreOfAllModesOfAType) {
+  Condition c;
+  c.kind = ConditionKind::frequencies;
+  c.stage = "a";
+  c.mode_type = "rotational";
+  c.frequencies_Hz = {200.05, 0.0};
+  c.tolerance_Hz = {0.1};
+  const ConditionOutcome two = judge(c, stage_of_modes());
+  EXPECT_TRUE(two.holds) << two.text;
+  EXPECT_NEAR(two.measured, 0.05, 1e-12);
+  // A tolerance of its own for each, in their order as given.
+  c.tolerance_Hz = {0.01, 0.1};
+  EXPECT_FALSE(judge(c, stage_of_modes()).holds);
+  c.tolerance_Hz = {0.1, 0.01};
+  EXPECT_TRUE(judge(c, stage_of_modes()).holds);
+  // One that is missing, and one too many.
+  c.tolerance_Hz = {0.1};
+  c.frequencies_Hz = {0.0};
+  EXPECT_FALSE(judge(c, stage_of_modes()).holds);
+  c.frequencies_Hz = {0.0, 100.0, 200.0};
+  EXPECT_FALSE(judge(c, stage_of_modes()).holds);
+  c.mode_type = "";
+  EXPECT_TRUE(judge(c, stage_of_modes()).holds);
+  c.multiplicity = 1;
+  EXPECT_FALSE(judge(c, stage_of_modes()).holds);
+  c.mode_type = "translational";
+  c.frequencies_Hz = {100.0};
+  c.multiplicity = 2;
+  EXPECT_TRUE(judge(c, stage_of_modes()).holds);
+  EXPECT_FALSE(judge(Claim{"C", "", "", "", 1.0, {c}}, stage_of_modes()).inert);
 }
 
 TEST(Claims, AGlanceTellsGrowthFromNone) {

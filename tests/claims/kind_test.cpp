@@ -1,10 +1,12 @@
 #include "claims/kind.hpp"
 
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "claims/inputs.hpp"
 #include "input/study_model.hpp"
 
 namespace epicyclic::claims::kind_test {
@@ -42,6 +44,37 @@ TEST(ClaimsKind, ASweepByThePointerOfTheSpeedIsOneOfTheSpeed) {
       "validation/tang2020/claims.json",
       input::parse_assignments(std::vector<std::string>{"/study/sweeps/0/parameter=/operation/mesh_frequency_ratio"}));
   EXPECT_EQ(claims_in(input.study).sweeps.front().axis.name, studies::speed_parameter);
+}
+
+/// A study of frequencies needs no load and no damping.
+TEST(ClaimsKind, OfFrequenciesAloneTakesAStageForModes) {
+  const input::LoadedInput input = input::load_input("validation/linparker1999_modes/claims.json");
+  EXPECT_FALSE(input.study.integrates());
+  const ClaimsOptions& options = claims_in(input.study);
+  ASSERT_EQ(options.stages.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::vector<ClaimMode> modes = modes_of(input, options.stages[k]);
+    int count = 0;
+    for (const ClaimMode& mode : modes) count += mode.multiplicity;
+    EXPECT_EQ(count, 9 + 3 * (3 + static_cast<int>(k)));
+    EXPECT_EQ(modes.front().frequency_Hz, 0.0);
+  }
+}
+
+TEST(ClaimsKind, RefusesOfAPairWhatPairsDoNotHave) {
+  const auto refused = [](const std::string& set) {
+    try {
+      (void)input::load_input("validation/kahramansingh1990_clearance/claims.json",
+                              input::parse_assignments(std::vector<std::string>{set}));
+    } catch (const input::InputProblems& wrong) {
+      return wrong.problems().front().pointer;
+    }
+    return std::string("nowhere");
+  };
+  EXPECT_EQ(refused("/name=other"), "nowhere");
+  EXPECT_EQ(refused("/study/claims/0/conditions/0/quantity=k_gamma_sp"), "/study/claims/0/conditions/0/quantity");
+  EXPECT_EQ(refused("/study/claims/0/conditions/0/quantity=delta_rp_h1"), "/study/claims/0/conditions/0/quantity");
+  EXPECT_EQ(refused("/study/figures/0/panels/0/quantity=load_sharing_max"), "/study/figures/0/panels/0/quantity");
 }
 
 }  // namespace

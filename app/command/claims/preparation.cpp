@@ -25,6 +25,12 @@ void require_models(const claims::ClaimsOptions& options, const claims::SweepMod
     for (const double value : {sweep.axis.from, sweep.axis.to}) (void)models(sweep, value);
 }
 
+void require_models(const input::LoadedInput& input) {
+  const claims::ClaimsOptions& options = claims::claims_in(input.study);
+  for (const claims::ClaimStage& stage : options.stages) (void)claims::modes_of(input, stage);
+  if (!options.sweeps.empty()) require_models(options, claims::claim_models(input));
+}
+
 namespace {
 
 /// The middle of all ranges, with the option that a parameter counts with.
@@ -103,10 +109,13 @@ void add_claims_kind() {
     input::StudyKind with_cost = claims::claims_kind();
     with_cost.cost = [](const input::LoadedInput& input) {
       const claims::ClaimsOptions& options = claims::claims_in(input.study);
-      require_models(options, claims::claim_models(input));
+      require_models(input);
       if (options.space.dimension() > 0) examine_candidates(options, claims::candidate_models(input));
-      return fmt::format("{} claims on {} sweeps; a search tries up to {} candidates", options.claims.size(),
-                         options.sweeps.size(), claims::most_evaluations(options));
+      if (options.stages.empty())
+        return fmt::format("{} claims on {} sweeps; a search tries up to {} candidates", options.claims.size(),
+                           options.sweeps.size(), claims::most_evaluations(options));
+      return fmt::format("{} claims on {} sweeps and the natural frequencies of {} stages", options.claims.size(),
+                         options.sweeps.size(), options.stages.size());
     };
     return with_cost;
   }();

@@ -12,6 +12,10 @@ namespace epicyclic::app {
 /// @throws InputError
 void require_models(const claims::ClaimsOptions& options, const claims::SweepModels& models);
 
+/// The same of the given stage, and the natural frequencies of the stages of claims.
+/// @throws InputError
+void require_models(const input::LoadedInput& input);
+
 /// The study of claims whose parameters a command searches or draws. It is checked, and its warnings are printed.
 /// @throws InputError if the study has no such parameters, and for contradictions
 [[nodiscard]] input::LoadedInput load_open_claims(const Arguments& arguments);

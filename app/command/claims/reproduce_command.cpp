@@ -111,16 +111,18 @@ int compute_part(const Arguments& arguments, const input::LoadedInput& input, co
 /// Where each sweep was computed.
 using Finished = std::map<std::string, std::unique_ptr<FinishedStudy>, std::less<>>;
 
-claims::Scorecard scorecard_of(const input::LoadedInput& input, const claims::ClaimsOptions& options,
-                               const Finished& finished) {
+/// One record for each of the starts.
+std::vector<claims::ClaimRecord> records_of(const input::LoadedInput& input, const claims::ClaimsOptions& options,
+                                            const Finished& finished) {
   std::vector<claims::ClaimRecord> records;
   for (const studies::Start start : options.starts) {
     claims::ClaimRecord& record = records.emplace_back();
     for (const claims::ClaimSweep& sweep : options.sweeps)
       record[sweep.name] =
           claims::claim_series(finished.find(folder_name(sweep, start))->second->points(), options.recording);
+    for (const claims::ClaimStage& stage : options.stages) record[stage.name].modes = claims::modes_of(input, stage);
   }
-  return claims::score(input.study.name, options, records);
+  return records;
 }
 
 std::filesystem::path recorded_verdicts(const Arguments& arguments) {
@@ -137,7 +139,7 @@ int reproduce_command(const Arguments& given) {
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
   require_kind(input, arguments, "claims");
   const auto& options = claims::claims_in(input.study);
-  require_models(options, claims::claim_models(input));
+  require_models(input);
   const std::filesystem::path recorded = recorded_verdicts(arguments);
   std::error_code none;
   std::optional<nlohmann::json> expected;
@@ -181,12 +183,13 @@ int reproduce_command(const Arguments& given) {
       const std::string name = folder_name(sweep, start);
       finished[name] = std::make_unique<FinishedStudy>(sweeps / name);
     }
-  const claims::Scorecard card = scorecard_of(input, options, finished);
+  const std::vector<claims::ClaimRecord> records = records_of(input, options, finished);
+  const claims::Scorecard card = claims::score(input.study.name, options, records);
   const std::string summary = claims::scorecard_summary(card);
   write_file_atomically(folder.file("scorecard.csv"), claims::scorecard_csv(card));
   write_file_atomically(folder.file("scorecard.md"), summary);
   const auto figures = claims::draw_claim_figures(
-      folder.file("figures"), card, reports::figure_title(input.study), [&](const std::string& sweep) {
+      folder.file("figures"), card, records.front(), reports::figure_title(input.study), [&](const std::string& sweep) {
         return finished
             .find(folder_name(*std::ranges::find(options.sweeps, sweep, &claims::ClaimSweep::name),
                               options.starts.front()))
