@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/errors.hpp"
 #include "input/aliases.hpp"
 #include "input/csv_columns.hpp"
 #include "input/curve_files.hpp"

@@ -68,9 +68,9 @@ refused "must rise" --set '/study/torque_time_s=[0, 0]' --set '/study/torque_Nm=
 refused "has 1 numbers" --set '/study/torque_time_s=[0, 1]' --set '/study/torque_Nm=[1]'
 refused "no such file" --set /study/torque_file=nowhere.csv
 printf 'time_s,force\n0,1\n' >wrong.csv
-refused "has no column torque_Nm" --set /study/torque_file=wrong.csv
+refused "has no column 'torque_Nm'" --set /study/torque_file=wrong.csv
 printf 'time_s,torque_Nm\n0,1\n1,much\n' >words.csv
-refused "words.csv:3: torque_Nm is no number" --set /study/torque_file=words.csv
+refused "words.csv: row 2: 'much' in the column 'torque_Nm' is no number" --set /study/torque_file=words.csv
 refused "take these out" --set /study/torque_file=torque.csv --set '/study/torque_Nm=[1]' --set '/study/torque_time_s=[1]'
 refused "needs a load by torque_Nm" --set '/stage/load={"power_kW": 3}' --set /study/torque_file=torque.csv
 refused "spur gears that move in their plane" --set /stage/lumped/sun/helix_angle_deg=0
