@@ -23,7 +23,7 @@ namespace epicyclic::gear {
 inline constexpr double rpm = 30.0 / std::numbers::pi;
 
 /// Speeds at a mesh frequency omega_m [rad/s], in the direction of the torque on the sun, or against it if the stage
-/// runs backward. Of a fixed sun the carrier's magnitude, which is the other way round.
+/// runs backward. Of a fixed sun the carrier's magnitude: its direction is the opposite one.
 struct Speeds {
   double sun;      ///< omega_s [rad/s]
   double carrier;  ///< omega_c [rad/s]

@@ -70,7 +70,9 @@ class PerPlanet {
   PerPlanet(double of_all) : values_{of_all} {}  // NOLINT(google-explicit-constructor): the usual case
   PerPlanet(std::vector<double> values) : values_(std::move(values)) {}  // NOLINT(google-explicit-constructor)
 
-  [[nodiscard]] double operator[](std::size_t planet) const { return values_.size() == 1 ? values_[0] : values_[planet]; }
+  [[nodiscard]] double operator[](std::size_t planet) const {
+    return values_.size() == 1 ? values_[0] : values_[planet];
+  }
   [[nodiscard]] const std::vector<double>& values() const { return values_; }
   operator double() const {  // NOLINT(google-explicit-constructor)
     double apart = 0.0;

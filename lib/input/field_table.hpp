@@ -294,12 +294,12 @@ Format<std::vector<double>> number_or_numbers_format(std::string_view key, const
 /// Of a class that is made of one number or several, values(), as gear::PerPlanet is.
 template <class V>
 Format<V> values_format(Format<std::vector<double>> numbers) {
-  return {[read = numbers.read](const json& value, const std::string& pointer,
-                                ReadContext& context) -> std::optional<V> {
-            if (auto read_numbers = read(value, pointer, context)) return V(std::move(*read_numbers));
-            return std::nullopt;
-          },
-          [write = numbers.write](const V& value) { return write(value.values()); }, numbers.schema};
+  return {
+      [read = numbers.read](const json& value, const std::string& pointer, ReadContext& context) -> std::optional<V> {
+        if (auto read_numbers = read(value, pointer, context)) return V(std::move(*read_numbers));
+        return std::nullopt;
+      },
+      [write = numbers.write](const V& value) { return write(value.values()); }, numbers.schema};
 }
 /// The same, or "rigid" in place of one number.
 template <class V>

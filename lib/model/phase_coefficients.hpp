@@ -79,12 +79,12 @@ struct MeshCoefficients {
   void add_shaft_errors(const P& omega, const MeshParameters<P, N>& mesh, const P& s) {
     for (const ShaftErrors<P, N>& shaft : mesh.shafts) {
       const std::size_t harmonics = shaft.cosine.size();
-      const HarmonicBasis<P> turn(sine_cosine(shaft.order * s), harmonics);
+      const HarmonicBasis<P> rotation(sine_cosine(shaft.order * s), harmonics);
       P rate = P(0.0);
       for (std::size_t h = 0; h < harmonics; ++h) {
         rate += omega * shaft.order;
-        error += shaft.cosine[h] * turn.cosine[h] + shaft.sine[h] * turn.sine[h];
-        error_rate += rate * (shaft.sine[h] * turn.cosine[h] - shaft.cosine[h] * turn.sine[h]);
+        error += shaft.cosine[h] * rotation.cosine[h] + shaft.sine[h] * rotation.sine[h];
+        error_rate += rate * (shaft.sine[h] * rotation.cosine[h] - shaft.cosine[h] * rotation.sine[h]);
       }
     }
   }
@@ -181,8 +181,10 @@ struct PhaseCoefficients {
   /// Without the tables.
   PhaseCoefficients(const Parameters<P, N>& p, const HarmonicBasis<P>& basis, const P& s)
       : sun_planet(p, p.sun_planet, basis), ring_planet(p, p.ring_planet, basis), torques(p, basis) {
-    sun_planet.add_shaft_errors(p.omega, p.sun_planet, s);
-    ring_planet.add_shaft_errors(p.omega, p.ring_planet, s);
+    if (p.mesh_periods > 1) [[unlikely]] {
+      sun_planet.add_shaft_errors(p.omega, p.sun_planet, s);
+      ring_planet.add_shaft_errors(p.omega, p.ring_planet, s);
+    }
   }
 
   /// @param segment  of p, that of s

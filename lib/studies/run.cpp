@@ -110,6 +110,13 @@ int portrait_detail(const model::DynamicModel& model, const RunOptions& options,
   return std::max(1, std::min(static_cast<int>(std::ceil(std::min(wanted, double{most}))), affordable));
 }
 
+/// Options whose counts are of mesh periods, in periods of the field.
+integrate::IntegratorOptions in_periods_of(const model::DynamicModel& model, integrate::IntegratorOptions options) {
+  options.max_steps_per_period *= model.mesh_periods;
+  options.max_step_periods /= model.mesh_periods;
+  return options;
+}
+
 /// Intervals of Lyapunov exponents, however long each is.
 constexpr int least_intervals = 50;
 
@@ -122,7 +129,7 @@ class Run {
         scales_(model.scales),
         recording_(recording),
         options_(options),
-        integrator_(integrator),
+        integrator_(in_periods_of(model, integrator)),
         control_(control),
         go_on_(control.go_on ? control.go_on : [] { return true; }) {}
 
@@ -587,7 +594,7 @@ class Run {
   const model::Scales& scales_;
   const RecordingOptions& recording_;
   const RunOptions& options_;
-  const integrate::IntegratorOptions& integrator_;
+  const integrate::IntegratorOptions integrator_;  ///< its counts are of the field's period
   const RunControl& control_;
   const std::function<bool()> go_on_;
   std::vector<double> state_;  ///< the start of all parts after the point: the orbit's state, or the record's last

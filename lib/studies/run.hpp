@@ -114,8 +114,8 @@ struct RunResult {
   double friction_table_error = 0;  ///< of friction over normal force between the rows of its tables [-]
   std::optional<analysis::FloquetMultipliers> multipliers{};  ///< if periodic
   int mesh_periods = 1;  ///< after which errors repeat: between two points of the section
-  double omega = 0;                                           ///< Omega: exponents per s times Omega are per tau
-  double omega_sn = 0;                                        ///< of the scale of time [rad/s]
+  double omega = 0;      ///< Omega: exponents per s times Omega are per tau
+  double omega_sn = 0;   ///< of the scale of time [rad/s]
 };
 
 /// Flows of a run whose results can be kept: all that take long, once the point is known.

@@ -112,7 +112,7 @@ class PointRun {
   }
 
   void keep_spectrum() {
-    const int in_mesh_period = recording_.output_phases / model_.mesh_periods;
+    const int in_mesh_period = std::max(1, recording_.output_phases / model_.mesh_periods);
     const auto phases = static_cast<std::size_t>(in_mesh_period);
     if (watch_.signal().size() < 2) return;
     analysis::Spectrum s = analysis::averaged_spectrum(watch_.signal(), 1.0 / in_mesh_period, spectrum_periods * phases,

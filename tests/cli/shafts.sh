@@ -22,8 +22,8 @@ cat > stage.json <<'JSON'
 JSON
 cat > run.json <<'JSON'
 { "stage": "stage.json", "operation": { "mesh_frequency_ratio": 0.9 },
-  "study": { "kind": "run", "transient_periods": 20, "recorded_periods": 16, "period_max": 4, "exponent_periods": 30,
-             "history_periods": 27, "spectrum_periods": 54 } }
+  "study": { "kind": "run", "transient_periods": 20, "recorded_periods": 16, "period_max": 4, "exponent_periods": 0,
+             "history_periods": 27, "dense_phases": 16 } }
 JSON
 to_sweep=(--set '/study={"kind":"sweep","from":0.8,"to":0.9,"points":2,"transient_periods":20,"recorded_periods":16}')
 plain=(--set /stage/lumped/sun/eccentricity_um=null)
@@ -34,7 +34,6 @@ grep -q 'Periodic: the states repeat after 27 mesh periods' shafts/summary.md ||
 for line in '1/27 (sun)' '1 + 1/27 (sun)' '1 - 1/27 (sun)'; do
   grep -qF "$line" shafts/spectrum.csv || fail "the line $line is named"
 done
-# The sun's order is the largest of the deflection but for the mean; an even harmonic of a half tooth is not there.
 largest=$(awk -F, '$1 == "delta_sp_1" && $4 > 0 { if ($6 > most) { most = $6; name = $5 } } END { print name }' shafts/spectrum.csv)
 [ "$largest" = "1/27 (sun)" ] || [ "$largest" = 1 ] || fail "the largest line is $largest"
 "$epicyclic" run run.json -o two --threads 2 >/dev/null 2>&1
@@ -48,12 +47,12 @@ grep -q 'repeat after 27 mesh periods' stderr || fail "the reason is stated"
 [ "$(code_of "$epicyclic" sweep run.json -o plain "${to_sweep[@]}" "${plain[@]}")" = 0 ] || fail "unlike planets sweep: $(cat stderr)"
 [ "$(code_of "$epicyclic" gear run.json -o gear)" = 0 ] || fail "gear with an eccentric sun: $(cat stderr)"
 
-# Too long for sections, and too long for anything.
+# Too long for sections.
 [ "$(code_of "$epicyclic" run run.json -o long --set /stage/lumped/planet/eccentricity_um=5 --set /study/history_periods=1 \
   --set /study/transient_periods=1 --set /study/recorded_periods=1 --set /study/spectrum_periods=675 \
-  --set /study/dense_phases=16)" = 0 ] || fail "675 mesh periods are integrated: $(cat stderr)"
+  --set /study/dense_phases=8)" = 0 ] || fail "675 mesh periods are integrated: $(cat stderr)"
 grep -q 'not sought beyond 128 mesh periods' long/summary.md || fail "no regime is claimed"
-grep -q '(planets)' long/spectrum.csv || grep -q '(planets)' long/summary.md || fail "lines of the planets are named"
+grep -q '(planets)' long/spectrum.csv || fail "lines of the planets are named"
 [ "$(code_of "$epicyclic" check run.json --set /stage/lumped/sun/pitch_error_um='[1,2,3]')" = 2 ] || fail "3 teeth of 27"
 grep -q 'pitch_error_um: has 3 numbers' stderr || fail "the number of teeth is stated"
 [ "$(code_of "$epicyclic" check run.json --set /stage/lumped/planet/mass_kg='[1,2]')" = 2 ] || fail "2 masses of 3 planets"
@@ -68,8 +67,8 @@ for driver in carrier ring; do
   [ "$(code_of "$epicyclic" sweep run.json -o "held_$driver" "${to_sweep[@]}" "${plain[@]}" "${held_sun[@]}" \
     --set "/stage/driver=$driver")" = 0 ] || fail "the $driver drives: $(cat stderr)"
 done
-"$epicyclic" check run.json "${plain[@]}" "${held_sun[@]}" --set /stage/driver=ring | grep -q 'the ring drives, the carrier is driven' ||
-  fail "check says who drives"
+code_of "$epicyclic" check run.json "${plain[@]}" "${held_sun[@]}" --set /stage/driver=ring >/dev/null
+grep -q 'the ring drives, the carrier is driven' stdout stderr || fail "check states who drives"
 free=(--set /stage/boundary=free --set /stage/lumped/ring/torsional_support_N_per_m=0)
 [ "$(code_of "$epicyclic" check run.json "${plain[@]}" "${free[@]}")" = 2 ] || fail "a differential needs its speeds"
 [ "$(code_of "$epicyclic" sweep run.json -o free "${to_sweep[@]}" "${plain[@]}" "${free[@]}" \

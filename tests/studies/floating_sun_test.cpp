@@ -1,4 +1,5 @@
-// A sun without support, in time: its meshes hold it if there are three planets or more, and nothing holds it across two.
+// A sun without support, in time: its meshes hold it if there are three planets or more, and nothing holds it across
+// two.
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,8 @@ namespace {
 using model::Slots;
 
 gear::Stage floating(int planets) {
-  gear::Stage stage = problems::with_teeth(problems::with_moving_stiffness(problems::with_gap(problems::r1())),
-                                           24, 24, 72, planets);
+  gear::Stage stage =
+      problems::with_teeth(problems::with_moving_stiffness(problems::with_gap(problems::r1())), 24, 24, 72, planets);
   stage.sun.support_N_per_m = 0.0;
   stage.load = {std::nullopt, 600.0};
   return stage;

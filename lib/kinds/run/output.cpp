@@ -117,7 +117,9 @@ void write_spectrum_csv(const std::filesystem::path& file, const std::vector<Sig
     }
     for (std::size_t k = 0; k < s.spectrum.amplitude.size(); ++k) {
       if (s.spectrum.frequency(k) > tabulated_frequency) break;
-      csv.row(s.signal, s.unit, exact, s.spectrum.frequency(k), "", s.spectrum.amplitude[k], s.spectrum.phase[k]);
+      csv.row(s.signal, s.unit, exact, s.spectrum.frequency(k),
+              studies::shaft_order_words(s.spectrum.frequency(k), s.shafts, rounding), s.spectrum.amplitude[k],
+              s.spectrum.phase[k]);
     }
   }
   csv.commit();
