@@ -533,18 +533,27 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
   return text;
 }
 
-/// Forces of the bearings of planets and sun; nothing of a stage without them.
+/// Forces of the bearings of planets and sun, and the lives that are known; nothing of a stage without bearings.
 std::string bearings_text(const studies::StageRecord& stage) {
+  const bool lives = stage.sun_life || !stage.planet_lives.empty();
   std::vector<std::vector<std::string>> rows{{"bearing", "mean [N]", "max [N]"}};
-  const auto add = [&](const std::string& name, const studies::Course& force) {
-    if (std::isfinite(force.largest))
-      rows.push_back({name, fmt::format("{:.5g}", force.mean), fmt::format("{:.5g}", force.largest)});
+  if (lives) rows[0].insert(rows[0].end(), {"P [N]", "L10 [10^6 rev]", "L10h [h]"});
+  const auto add = [&](const std::string& name, const studies::Course& force, const gear::BearingLife& life) {
+    if (!std::isfinite(force.largest)) return;
+    rows.push_back({name, fmt::format("{:.5g}", force.mean), fmt::format("{:.5g}", force.largest)});
+    const auto number = [](double x) { return std::isnan(x) ? std::string("-") : fmt::format("{:.4g}", x); };
+    if (lives)
+      rows.back().insert(rows.back().end(),
+                         {number(life.equivalent_load_N), number(life.million_revolutions), number(life.hours)});
   };
   for (std::size_t i = 0; i < stage.planet_bearing.size(); ++i)
-    add(stage.is_pair() ? std::string("gear 2") : fmt::format("planet {}", i + 1), stage.planet_bearing[i]);
-  add(stage.is_pair() ? "gear 1" : "sun", stage.sun_bearing);
+    add(stage.is_pair() ? std::string("gear 2") : fmt::format("planet {}", i + 1), stage.planet_bearing[i],
+        stage.planet_lives.empty() ? gear::BearingLife() : stage.planet_lives[i]);
+  add(stage.is_pair() ? "gear 1" : "sun", stage.sun_bearing, stage.sun_life.value_or(gear::BearingLife()));
   if (rows.size() == 1) return {};
-  return "\n## Bearings\n\n" + aligned(rows) + "\n" + wrapped("Magnitude of the force, its mean and largest value.");
+  return "\n## Bearings\n\n" + aligned(rows) + "\n" +
+         wrapped(std::string("Magnitude of the force, its mean and largest value.") +
+                 (lives ? " P is the equivalent load and L10 the basic rating life of ISO 281." : ""));
 }
 
 /// Meshes with tensile forces: which ones, how large, how often and why.
