@@ -66,13 +66,13 @@ void add_gear_data(Table<T>& t) {
            "Diameter of the root circle [mm]; decides over the coefficients.");
   const auto relief = [](std::optional<gear::Relief> GearData::*member) {
     return table_detail::Access<T, gear::Relief>{[=](T& gear) -> gear::Relief& {
-                                                   auto& relief = gear.data.*member;
-                                                   if (!relief) relief.emplace();
-                                                   return *relief;
+                                                   auto& held = gear.data.*member;
+                                                   if (!held) held.emplace();
+                                                   return *held;
                                                  },
                                                  [=](const T& gear) -> const gear::Relief* {
-                                                   const auto& relief = gear.data.*member;
-                                                   return relief ? &*relief : nullptr;
+                                                   const auto& held = gear.data.*member;
+                                                   return held ? &*held : nullptr;
                                                  }};
   };
   t.object("tip_relief", relief(&GearData::tip_relief), relief_table("tip"));

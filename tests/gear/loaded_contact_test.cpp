@@ -11,7 +11,7 @@
 #include "gear/gear_set.hpp"
 #include "problems/table1.hpp"
 
-namespace epicyclic::gear {
+namespace epicyclic::gear::loaded_contact_test {
 namespace {
 
 using problems::table1;
@@ -19,7 +19,7 @@ using problems::yi_pair;
 
 constexpr double force_N = 2000;
 constexpr double rounding = 1e-9;  // of the phases where pairs touch, found by halving
-const GearData involute{};
+const GearData unmodified{};
 
 /// A pair whose teeth yield at their contact alone: the same stiffness everywhere.
 MeshedPair constant_pair() {
@@ -62,7 +62,7 @@ TEST(LoadedContact, GapsBeyondThePathAreThoseOfTheInvolutes) {
   const GearSet set = make_gear_set(table1());
   for (const MeshedPair* mesh : {&set.sun_planet, &set.ring_planet}) {
     const Pair& p = mesh->pair;
-    const LoadedContact contact(*mesh, involute, involute, force_N);
+    const LoadedContact contact(*mesh, unmodified, unmodified, force_N);
     const double sign = p.internal() ? 1.0 : -1.0;
     for (const double u : {0.02, 0.1, 0.25}) {
       // Axis of gear 1 at 0, that of gear 2 at (0, centre distance), of a ring below. Gear 1 turns clockwise.
@@ -111,7 +111,7 @@ TEST(LoadedContact, ReliefHasItsShapeAndItsAmount) {
     GearData first;
     first.tip_relief =
         Relief{.amount_um = 30, .shape = shape, .start_diameter_mm = 2.0 * std::hypot(arm, p.driving.base_radius_mm)};
-    const LoadedContact contact(mesh, first, involute, force_N);
+    const LoadedContact contact(mesh, first, unmodified, force_N);
     EXPECT_EQ(contact.gap_um(0.5 * q_0), 0.0);
     EXPECT_NEAR(contact.gap_um(p.contact_ratio()), 30.0, 1e-9);
     const double x = 0.4;
@@ -144,7 +144,7 @@ TEST(LoadedContact, PairsBalanceTheForceAndShareOneDeflection) {
 TEST(LoadedContact, WithoutModificationTheNominalPathHasTheStiffnessOfItsPairs) {
   const MeshedPair mesh = yi_pair();
   constexpr double light_N = 1e-6;
-  const LoadedContact contact(mesh, involute, involute, light_N);
+  const LoadedContact contact(mesh, unmodified, unmodified, light_N);
   for (const double phase : {0.01, 0.2, 0.5, 0.6, 0.8})
     EXPECT_NEAR(contact.stiffness(phase) / mesh.stiffness(phase), 1.0, 1e-6) << phase;
 }
@@ -171,7 +171,7 @@ TEST(LoadedContact, LongReliefMakesTheTransmissionErrorConstantAtTheDesignLoad) 
 
 TEST(LoadedContact, UnmodifiedTransmissionErrorIsThatOfOneAndTwoPairs) {
   const MeshedPair mesh = constant_pair();
-  const LoadedContact contact(mesh, involute, involute, force_N);
+  const LoadedContact contact(mesh, unmodified, unmodified, force_N);
   const double deflection_um = 1e6 * force_N / mesh.pair_stiffness(0.5);
   const TransmissionError error = transmission_error(contact, force_N);
   EXPECT_NEAR(error.peak_to_peak_um, 0.5 * deflection_um, rounding * deflection_um);
@@ -224,10 +224,10 @@ TEST(LoadedContact, RefusesAReliefThatStartsBehindItsEnd) {
   const MeshedPair mesh = yi_pair();
   GearData first;
   first.tip_relief = Relief{.amount_um = 20, .start_roll_mm = mesh.pair.end_mm + 1.0};
-  EXPECT_THROW(LoadedContact(mesh, first, involute, force_N), DomainError);
+  EXPECT_THROW(LoadedContact(mesh, first, unmodified, force_N), DomainError);
   first.tip_relief = Relief{.amount_um = 20, .start_diameter_mm = mesh.pair.driving.base_radius_mm};
-  EXPECT_THROW(LoadedContact(mesh, first, involute, force_N), DomainError);
+  EXPECT_THROW(LoadedContact(mesh, first, unmodified, force_N), DomainError);
 }
 
 }  // namespace
-}  // namespace epicyclic::gear
+}  // namespace epicyclic::gear::loaded_contact_test
