@@ -345,14 +345,12 @@ std::vector<const Condition*> conditions_of(const Scorecard& card) {
 
 std::string style_of_data() { return figures::dots(figures::ink::red, 1.4, 6); }
 
-/// A panel for sets of places, with its title inside at the top.
+using Places = std::vector<std::array<double, 2>>;
+
+/// A panel over an ordinate, with its title inside at the top.
 /// @returns the axis
 figures::FigureRange add_panel(figures::Sketch& sketch, const ClaimPanel& panel, const std::string& symbol,
-                               const std::vector<std::vector<std::array<double, 2>>>& sets,
-                               const figures::FigureRange& x) {
-  figures::FigureRange y;
-  for (const auto& set : sets)
-    for (const auto& row : set) y.include(row[1]);
+                               figures::FigureRange y, const figures::FigureRange& x) {
   // What differs by rounding alone appears as one value.
   constexpr double rounding = 1e-6;
   constexpr double around_one = 0.01;
@@ -362,31 +360,51 @@ figures::FigureRange add_panel(figures::Sketch& sketch, const ClaimPanel& panel,
   const figures::FigureRange axis = y.widened(figures::figure_margin);
   sketch.panel(symbol, axis);
   if (!panel.title.empty())
-    sketch.letters(std::vector<std::array<double, 2>>{{0.5 * (x.low + x.high), axis.high}},
-                   figures::verbatim_text(panel.title), "center offset character 0,-0.9 boxed");
+    sketch.letters(Places{{0.5 * (x.low + x.high), axis.high}}, figures::verbatim_text(panel.title),
+                   "center offset character 0,-0.9 boxed");
   return axis;
+}
+
+/// A quantity of a sweep's points.
+Places rows_of(const std::vector<ClaimPoint>& points, const std::string& quantity) {
+  Places rows;
+  for (const ClaimPoint& p : points)
+    rows.push_back({p.value, p.reached ? p.quantity(quantity) : std::numeric_limits<double>::quiet_NaN()});
+  return rows;
+}
+
+/// Published values of a quantity along a sweep.
+Places data_of(const ClaimPanel& panel, const Scorecard& card) {
+  Places data;
+  for (const Condition* c : conditions_of(card))
+    if (c->kind == ConditionKind::curve && c->sweep == panel.sweep && c->quantity == panel.quantity)
+      for (std::size_t k = 0; k < c->data.size(); ++k) data.push_back({c->data_at[k], c->data[k]});
+  return data;
+}
+
+/// Of all panels of a figure with this quantity.
+figures::FigureRange ordinate_of(const ClaimFigure& figure, const std::string& quantity, const Scorecard& card,
+                                 const ClaimRecord& record) {
+  figures::FigureRange y;
+  for (const ClaimPanel& panel : figure.panels) {
+    if (panel.quantity != quantity) continue;
+    const ClaimSeries& series = record.at(panel.sweep);
+    for (const Places& places :
+         {rows_of(series.points, quantity), rows_of(series.other, quantity), data_of(panel, card)})
+      for (const auto& place : places) y.include(place[1]);
+  }
+  return y;
 }
 
 /// A quantity along a sweep, in all its directions, with what is published of it: values, and bounds of changes.
 figures::FigureRange add_curve(figures::Sketch& sketch, const ClaimPanel& panel, const Scorecard& card,
-                               const ClaimSeries& series) {
-  using Rows = std::vector<std::array<double, 2>>;
-  const auto rows_of = [&](const std::vector<ClaimPoint>& points) {
-    Rows rows;
-    for (const ClaimPoint& p : points)
-      rows.push_back({p.value, p.reached ? p.quantity(panel.quantity) : std::numeric_limits<double>::quiet_NaN()});
-    return rows;
-  };
-  Rows data;
-  for (const Condition* c : conditions_of(card))
-    if (c->kind == ConditionKind::curve && c->sweep == panel.sweep && c->quantity == panel.quantity)
-      for (std::size_t k = 0; k < c->data.size(); ++k) data.push_back({c->data_at[k], c->data[k]});
-  const Rows rows = rows_of(series.points);
-  const Rows other = rows_of(series.other);
+                               const ClaimSeries& series, const figures::FigureRange& ordinate) {
+  const Places data = data_of(panel, card);
+  const Places rows = rows_of(series.points, panel.quantity);
+  const Places other = rows_of(series.other, panel.quantity);
   figures::FigureRange x;
   for (const auto& row : rows) x.include(row[0]);
-  const figures::FigureRange y =
-      add_panel(sketch, panel, reports::quantity_label(panel.quantity, false), {rows, other, data}, x);
+  const figures::FigureRange y = add_panel(sketch, panel, reports::quantity_label(panel.quantity, false), ordinate, x);
   const bool both = !other.empty();
   const auto word = [&](studies::Direction d) {
     return both ? (d == studies::Direction::up ? "up" : "down") : "computed";
@@ -394,7 +412,7 @@ figures::FigureRange add_curve(figures::Sketch& sketch, const ClaimPanel& panel,
   sketch.add(rows, figures::solid(figures::ink::blue), word(series.direction));
   if (both) sketch.add(other, figures::dashed(figures::ink::green, 2, "(10,7)"), word(studies::Direction::down));
   sketch.add(data, style_of_data(), data.empty() ? "" : "published");
-  Rows bounds;
+  Places bounds;
   constexpr double gap = std::numeric_limits<double>::quiet_NaN();
   for (const Condition* c : conditions_of(card))
     if (c->kind == ConditionKind::change && c->sweep == panel.sweep)
@@ -408,10 +426,10 @@ figures::FigureRange add_curve(figures::Sketch& sketch, const ClaimPanel& panel,
 /// Natural frequencies of a stage by their number, with the published ones.
 figures::FigureRange add_modes(figures::Sketch& sketch, const ClaimPanel& panel, const Scorecard& card,
                                const std::vector<ClaimMode>& modes) {
-  std::vector<std::array<double, 2>> computed;
+  Places computed;
   for (std::size_t k = 0; k < modes.size(); ++k)
     computed.push_back({static_cast<double>(k + 1), modes[k].frequency_Hz});
-  std::vector<std::array<double, 2>> data;
+  Places data;
   for (const Condition* c : conditions_of(card)) {
     if (c->kind != ConditionKind::frequencies || c->stage != panel.stage) continue;
     const ModeMatch match = matched_modes(*c, modes);
@@ -421,7 +439,10 @@ figures::FigureRange add_modes(figures::Sketch& sketch, const ClaimPanel& panel,
   figures::FigureRange x;
   x.include(0.5);
   x.include(static_cast<double>(modes.size()) + 0.5);
-  (void)add_panel(sketch, panel, "f / Hz", {computed, data}, x);
+  figures::FigureRange y;
+  for (const Places& places : {computed, data})
+    for (const auto& place : places) y.include(place[1]);
+  (void)add_panel(sketch, panel, "f / Hz", y, x);
   sketch.add(computed, figures::dots(figures::ink::blue, 0.8), "computed");
   sketch.add(data, style_of_data(), data.empty() ? "" : "published");
   return x;
@@ -447,7 +468,8 @@ std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder,
         abscissa = "number of the natural frequency";
       } else {
         of = panel.quantity.empty() ? add_diagram(sketch, panel, card, points)
-                                    : add_curve(sketch, panel, card, record.at(panel.sweep));
+                                    : add_curve(sketch, panel, card, record.at(panel.sweep),
+                                                ordinate_of(figure, panel.quantity, card, record));
         abscissa = parameter_label(std::ranges::find(card.options.sweeps, panel.sweep, &ClaimSweep::name)->axis.name);
       }
       x.include(of.low);

@@ -96,8 +96,8 @@ const Table<Condition>& condition_table() {
     t.number("at_least", &Condition::at_least, any_value, "Least that is measured.");
     t.number("at_most", &Condition::at_most, any_value, "Most that is measured.");
     t.choice("quantity", &Condition::quantity, quantity_names(),
-             "Of planet 1: range and maximum of the deflections in time, range of their Poincare points; spread of the "
-             "planets [b_c]; largest Lyapunov exponent [per tau]; or a column of points.csv, in its unit.");
+             "Of planet 1: range and maximum of the deflections in time, range of their Poincare points [b_c]. Spread "
+             "of the planets [b_c]. Largest Lyapunov exponent [per tau]. Or a column of points.csv, in its unit.");
     t.choice("statistic", &Condition::statistic,
              std::vector<std::pair<std::string, Statistic>>{
                  {"min", Statistic::min}, {"mean", Statistic::mean}, {"max", Statistic::max}},
