@@ -220,7 +220,7 @@ double LoadedContact::stiffness(double phase) const {
 
 double LoadedContact::load_share(double position) const {
   for (const PairLoad& load : pair_loads(in_period(position), force_N_))
-    if (std::abs(load.position - position) < 0.5) return load.force_N / force_N_;
+    if (std::abs(load.position - position) < 0.5) return std::min(load.force_N / force_N_, 1.0);  // but for rounding
   return 0.0;
 }
 
