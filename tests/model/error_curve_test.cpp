@@ -144,12 +144,15 @@ TEST(ErrorCurve, StepsEndOnItsKinks) {
 }
 
 TEST(ErrorCurve, LinearEquilibriumHasItsValue) {
-  gear::Stage stage = problems::with_error_curve(quiet(problems::torsional_pair()));
-  const DynamicModel m = model_of(stage);
-  MeshDeflections d;
-  m.deflections(0.0, m.default_start.data(), d);
-  // delta = b + F / k: half gap and unit stiffness of the scales.
-  EXPECT_NEAR(d.sun_planet[0], 1.0 + m.static_mesh_force, 1e-12);
+  const gear::Stage moving = problems::with_error_curve(quiet(problems::r1()));
+  gear::Stage constant = quiet(problems::r1());
+  // At s = 0, with the curve at 0 there.
+  constant.sun_planet_mesh.error_mean_um = {1.5 - 0.7 + 0.4};
+  constant.ring_planet_mesh.error_mean_um = {-1.5 - 0.7 + 0.4};
+  const std::vector<double> expected = model_of(constant).default_start;
+  const std::vector<double> start = model_of(moving).default_start;
+  ASSERT_EQ(start.size(), expected.size());
+  for (std::size_t k = 0; k < start.size(); ++k) EXPECT_NEAR(start[k], expected[k], 1e-11) << k;
 }
 
 TEST(ErrorCurve, JumpsAreRefused) {
