@@ -64,7 +64,6 @@ void read_curve_files(
       } catch (const InputError& error) {
         refuse(pointer + "/file", "the file " + name + ": " + error.what());
         mesh->erase(curve_key);
-        if (!mesh->contains("stiffness_N_per_m")) (*mesh)["stiffness_N_per_m"] = 1.0;  // not missing, but unknown
         continue;
       }
       curve->erase("file");
