@@ -128,7 +128,7 @@ std::vector<double> linear_equilibrium(Layout layout, Parameters<double, N> p) {
   Eigen::VectorXd load(n);
   for (std::size_t r = 0; r < n; ++r) load(static_cast<Eigen::Index>(r)) = -slope[n + r];
 
-  p.drive = p.ring_drive = p.carrier_load = 0.0;
+  p.drive = p.ring_drive = p.carrier_load = p.output_load = 0.0;
   p.centrifugal.fill(0.0);
   p.sun_planet.error_cos.fill(0.0);
   p.ring_planet.error_cos.fill(0.0);
