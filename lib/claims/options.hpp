@@ -159,6 +159,7 @@ struct ClaimFigure {
   std::string name;  ///< of its file
   std::string title;
   std::vector<ClaimPanel> panels;
+  std::string data = "published";  ///< word of the legend for what is compared with
 };
 
 /// How candidates and draws are evaluated: cold starts, short records, coarse grids of the sweeps.

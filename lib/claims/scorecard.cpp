@@ -398,20 +398,25 @@ figures::FigureRange ordinate_of(const ClaimFigure& figure, const std::string& q
 
 /// A quantity along a sweep, in all its directions, with what is published of it: values, and bounds of changes.
 figures::FigureRange add_curve(figures::Sketch& sketch, const ClaimPanel& panel, const Scorecard& card,
-                               const ClaimSeries& series, const figures::FigureRange& ordinate) {
+                               const ClaimSeries& series, const figures::FigureRange& ordinate,
+                               const std::string& word_of_data) {
   const Places data = data_of(panel, card);
   const Places rows = rows_of(series.points, panel.quantity);
   const Places other = rows_of(series.other, panel.quantity);
   figures::FigureRange x;
   for (const auto& row : rows) x.include(row[0]);
-  const figures::FigureRange y = add_panel(sketch, panel, reports::quantity_label(panel.quantity, false), ordinate, x);
+  // Panels are low: the words would leave them.
+  std::string label = reports::quantity_label(panel.quantity, false);
+  constexpr std::string_view words = "the transmission error";
+  if (const auto at = label.find(words); at != std::string::npos) label.replace(at, words.size(), "TE");
+  const figures::FigureRange y = add_panel(sketch, panel, label, ordinate, x);
   const bool both = !other.empty();
   const auto word = [&](studies::Direction d) {
     return both ? (d == studies::Direction::up ? "up" : "down") : "computed";
   };
   sketch.add(rows, figures::solid(figures::ink::blue), word(series.direction));
   if (both) sketch.add(other, figures::dashed(figures::ink::green, 2, "(10,7)"), word(studies::Direction::down));
-  sketch.add(data, style_of_data(), data.empty() ? "" : "published");
+  sketch.add(data, style_of_data(), data.empty() ? "" : word_of_data);
   Places bounds;
   constexpr double gap = std::numeric_limits<double>::quiet_NaN();
   for (const Condition* c : conditions_of(card))
@@ -425,7 +430,7 @@ figures::FigureRange add_curve(figures::Sketch& sketch, const ClaimPanel& panel,
 
 /// Natural frequencies of a stage by their number, with the published ones.
 figures::FigureRange add_modes(figures::Sketch& sketch, const ClaimPanel& panel, const Scorecard& card,
-                               const std::vector<ClaimMode>& modes) {
+                               const std::vector<ClaimMode>& modes, const std::string& word_of_data) {
   Places computed;
   for (std::size_t k = 0; k < modes.size(); ++k)
     computed.push_back({static_cast<double>(k + 1), modes[k].frequency_Hz});
@@ -444,7 +449,7 @@ figures::FigureRange add_modes(figures::Sketch& sketch, const ClaimPanel& panel,
     for (const auto& place : places) y.include(place[1]);
   (void)add_panel(sketch, panel, "f / Hz", y, x);
   sketch.add(computed, figures::dots(figures::ink::blue, 0.8), "computed");
-  sketch.add(data, style_of_data(), data.empty() ? "" : "published");
+  sketch.add(data, style_of_data(), data.empty() ? "" : word_of_data);
   return x;
 }
 
@@ -464,12 +469,12 @@ std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder,
     for (const ClaimPanel& panel : figure.panels) {
       figures::FigureRange of;
       if (!panel.stage.empty()) {
-        of = add_modes(sketch, panel, card, record.at(panel.stage).modes);
+        of = add_modes(sketch, panel, card, record.at(panel.stage).modes, figure.data);
         abscissa = "number of the natural frequency";
       } else {
         of = panel.quantity.empty() ? add_diagram(sketch, panel, card, points)
                                     : add_curve(sketch, panel, card, record.at(panel.sweep),
-                                                ordinate_of(figure, panel.quantity, card, record));
+                                                ordinate_of(figure, panel.quantity, card, record), figure.data);
         abscissa = parameter_label(std::ranges::find(card.options.sweeps, panel.sweep, &ClaimSweep::name)->axis.name);
       }
       x.include(of.low);

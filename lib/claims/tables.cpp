@@ -258,6 +258,7 @@ const Table<ClaimFigure>& claim_figure_table() {
     Table<ClaimFigure> t("claim_figure", "A figure of panels under each other that have one parameter.");
     t.text("name", &ClaimFigure::name, "Of its file.").required();
     t.text("title", &ClaimFigure::title, "What it shows.");
+    t.text("data", &ClaimFigure::data, "Word of the legend for the data, such as closed form.");
     t.objects("panels", &ClaimFigure::panels, panel_table(), 20, "Its panels, from above.").required();
     return t;
   }();
@@ -352,9 +353,9 @@ const Table<SearchOptions>& search_options_table() {
         "regime_cost", &SearchOptions::regime_cost,
         std::vector<std::pair<std::string, SearchLead>>{
             {"regimes", SearchLead::regimes}, {"multipliers", SearchLead::multipliers}, {"dots", SearchLead::dots}},
-        "What gives the cost of a failed condition on regimes: the regimes of the screened points; or the Floquet "
-        "multipliers of the orbit of period 1, which is then continued along the sweeps; or heights and gaps of "
-        "the dots in the sweeps' diagrams.");
+        "What gives the cost of a failed condition on regimes. `regimes`: those of the screened points. "
+        "`multipliers`: the Floquet multipliers of the orbit of period 1 along the sweeps. `dots`: heights and gaps "
+        "of the dots in the diagrams.");
     t.choice("reading", &SearchOptions::reading, reading_choices(), "How the claims are read.");
     t.number("spread", &SearchOptions::spread, above_up_to(0, 1),
              "Of the first candidates of a covariance adaptation, in parts of the ranges [-].");

@@ -116,6 +116,7 @@ std::vector<double> linear_equilibrium(Layout layout, Parameters<double, N> p) {
   };
   linear(p.sun_planet);
   linear(p.ring_planet);
+  p.torque_harmonics = 0;
   p.smooth = false;
   p.sun_law = gear::BearingLaw::linear_xy;
   p.sun_half_gap = 0.0;

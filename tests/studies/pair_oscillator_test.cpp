@@ -64,6 +64,7 @@ TEST(PairOscillator, OrbitsOfASweepAreThoseOfTheClosedForm) {
   recording.transient_periods = 100;
   integrate::IntegratorOptions tight;
   tight.relative_tolerance = tight.absolute_tolerance = 1e-12;
+  tight.locate_contacts = true;  // a step over a kink has a lower order
   int periodic = 0;
   for (const double w : {0.6, 0.75, 0.9, 1.1, 1.3, 1.7}) {
     const model::DynamicModel pair = pair_at(w, 0.05, 0.1, 0.05);

@@ -246,7 +246,7 @@ TEST(Ramp, IsResumedWithTheSameBits) {
   RampOptions options;
   options.from = 0.5;
   options.to = 0.8;
-  options.rate_per_tau = 1e-3;
+  options.rate_per_tau = 2.5e-4;
   options.hold_periods = 20;
   std::vector<std::vector<double>> kept;
   RampControl control;
