@@ -251,24 +251,24 @@ class LoadedInput::Loader {
   /// Puts the rows of the CSV file that a ramp names in its place.
   void read_torque_file() {
     const std::string place = "/study/torque_file";
-    const auto study = whole_.find("study");
-    if (study == whole_.end() || !study->is_object() || study_of(whole_) != "ramp") return;
-    const auto named = study->find("torque_file");
-    if (named == study->end() || !named->is_string()) return;
-    if (study->contains("torque_time_s") || study->contains("torque_Nm"))
+    const auto plan = whole_.find("study");
+    if (plan == whole_.end() || !plan->is_object() || study_of(whole_) != "ramp") return;
+    const auto named = plan->find("torque_file");
+    if (named == plan->end() || !named->is_string()) return;
+    if (plan->contains("torque_time_s") || plan->contains("torque_Nm"))
       return refuse(place, "gives torque_time_s and torque_Nm; take these out");
     const auto name = named->get<std::string>();
     try {
       const auto rows =
           csv_columns(sources_->files->read_text(sources_->path.parent_path() / name, "CSV"), {"time_s", "torque_Nm"});
-      (*study)["torque_time_s"] = rows[0];
-      (*study)["torque_Nm"] = rows[1];
-      for (const char* key : {"torque_time_s", "torque_Nm"}) (*study)["origin"][key] = "table: " + name;
+      (*plan)["torque_time_s"] = rows[0];
+      (*plan)["torque_Nm"] = rows[1];
+      for (const char* key : {"torque_time_s", "torque_Nm"}) (*plan)["origin"][key] = "table: " + name;
     } catch (const InputError& error) {
       return refuse(place, "the file " + name + ": " + error.what());
     }
-    study->erase("torque_file");
-    (*study)["origin"].erase("torque_file");
+    plan->erase("torque_file");
+    (*plan)["origin"].erase("torque_file");
   }
 
   /// Puts the rows of the CSV files that curves name in the places of the names.
