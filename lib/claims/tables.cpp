@@ -10,6 +10,7 @@ using input::above_up_to;
 using input::between;
 using input::Bounds;
 using input::Field;
+using input::named;
 using input::ReadContext;
 using input::Study;
 using input::Table;
@@ -19,14 +20,6 @@ namespace {
 
 const Bounds any_value = between(-1e300, 1e300);
 constexpr std::size_t list_most = 1000;
-
-/// Enumerators by their names.
-template <class E, class Names>
-std::vector<std::pair<std::string, E>> named(const Names& names) {
-  std::vector<std::pair<std::string, E>> all;
-  for (const auto& [name, value] : names) all.emplace_back(std::string(name), value);
-  return all;
-}
 
 /// Any JSON value, kept as its text.
 Field<OptionSet> value_field() {

@@ -33,6 +33,11 @@ Speeds speeds(const Stage& stage, double mesh_frequency) {
   return {carrier * (z_s + z_r) / z_s, carrier};
 }
 
+double carrier_speed(const Stage& stage, double mesh_frequency) {
+  const double carrier = speeds(stage, mesh_frequency).carrier;
+  return stage.boundary == Boundary::fixed_sun ? -carrier : carrier;
+}
+
 Torques torques(const Stage& stage, double mesh_frequency) {
   const bool held_sun = stage.boundary == Boundary::fixed_sun;
   const double ratio = stage.is_pair() ? 0.0 : teeth(stage.ring.teeth, "ring") / teeth(stage.sun.teeth, "sun");

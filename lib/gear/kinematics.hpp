@@ -39,6 +39,9 @@ struct Torques {
   double carrier;  ///< T_c [N m], 0 if the carrier is held in `star`
 };
 
+/// omega_c in the direction of omega_s - omega_c: that of Speeds, of a fixed sun with the negative sign [rad/s].
+[[nodiscard]] double carrier_speed(const Stage& stage, double mesh_frequency);
+
 [[nodiscard]] Torques torques(const Stage& stage, double mesh_frequency);
 
 /// Centrifugal force of one planet by the carrier's rotation, along its radius [N]: the load on its bearing without

@@ -1,28 +1,29 @@
-// Static contact of the tooth pairs of a mesh whose flanks have relief and crowning: load sharing and transmission error
-// under load.
+// Static contact of the tooth pairs of a mesh whose flanks have relief and crowning: load sharing and transmission
+// error under load.
 //
-//   relief from y_0 to y_1, lengths of roll, C its amount, x = (y - y_0)/(y_1 - y_0) in [0, 1], L = |y_1 - y_0|:
-//     linear C x ,  parabolic C x^2 ,  circular x^2 L^2 / (R + sqrt(R^2 - x^2 L^2)) , R = (L^2 + C^2)/(2 C)  [G-relief]
+//   relief from y_0 to y_1, lengths of roll, C its amount, x = (y - y_0)/(y_1 - y_0) in [0, 1], L = |y_1 - y_0|
+//     linear C x ,  parabolic C x^2                                                                    [G-relief]
+//     circular x^2 L^2 / (R + sqrt(R^2 - x^2 L^2)) ,  R = (L^2 + C^2)/(2 C)
 //   gap of pair j   c_j = relief of both flanks at its contact; beyond the ends of the path of contact, where the tip
 //                   of one gear meets the flank of the other one off the line of action, also the separation
-//                     s_a = r_b1 (phi + inv alpha_1(R)) - l                  before the start
-//                     s_b = +-[r_b2 (inv alpha_2(R) -+ beta) - h_2]          after the end, + external          [G-corner]
-//   crowning of the pair  C_b = C_1 (b/b_1)^2 + C_2 (b/b_2)^2 ,  closure of its thin slices
-//                     g(d) = d - C_b/3  (d >= C_b) ,  (2/3) d sqrt(d/C_b)  (0 < d < C_b) ,  0 else              [G-crown]
-//   load            sum_j k_j g(delta - c_j) = F                                                               [G-load]
-//   without load    e(phase) = min_j c_j ,   model  k(phase) = F/(delta - e)                                   [G-secant]
+//     before the start  s_a = r_b1 (phi + inv alpha_1(R)) - l                                          [G-corner]
+//     after the end     s_b = +-[r_b2 (inv alpha_2(R) -+ beta) - h_2] ,  + external
+//   crowning of the pair  C_b = C_1 (b/b_1)^2 + C_2 (b/b_2)^2 ,  closure of its thin slices            [G-crown]
+//     g(d) = d - C_b/3  (d >= C_b) ,  (2/3) d sqrt(d/C_b)  (0 < d < C_b) ,  0 else
+//   load            sum_j k_j g(delta - c_j) = F                                                       [G-load]
+//   without load    e(phase) = min_j c_j ,   model  k(phase) = F/(delta - e)                           [G-secant]
 //
 // R is the distance of the tip from the axis of the other gear, phi and beta its angles there from the tangent points
 // N_1 and N_2, in the direction of rotation. Separations are displacements along the line of action, to first order in
-// their ratio to the radii. Beyond the path k_j is that of its end. Source: derived here from the involutes; the law of
-// the load is that of Tavakoli and Houser, J. Mech. Trans. Autom. Des. 108 (1986) 86, with the pair stiffness [G-pairk];
-// slices without coupling are those of ISO 6336-1, annex on K_H beta.
+// their ratio to the radii. Beyond the path k_j is that of its end. Source: derived here from the involutes; the law
+// of the load is that of Tavakoli and Houser, J. Mech. Trans. Autom. Des. 108 (1986) 86, with the pair stiffness
+// [G-pairk]; slices without coupling are those of ISO 6336-1, annex on K_H beta.
 //
 // The model has the linear force k(phase) (delta - e(phase)): it is exact without load and at the force F, at each
 // phase. Limits: at other loads it is the chord of the curve of the force; pairs do not enter earlier under more load.
 // The contact ratio is at most 3. The friction of pairs beyond the path is left out. Smoothness: delta, e and k are
-// continuous, with kinks where a pair touches or leaves, at the starts of reliefs and the ends of the path, and analytic
-// between; with crowning as x^1.5 beside the phase where a pair touches.
+// continuous, with kinks where a pair touches or leaves, at the starts of reliefs and the ends of the path, and
+// analytic between; with crowning as x^1.5 beside the phase where a pair touches.
 #pragma once
 
 #include <array>

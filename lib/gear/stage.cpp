@@ -148,8 +148,8 @@ void check_error_curve(Problems& out, const std::string& pointer, const ErrorCur
   check_rows(out, pointer, c.phase, c.breakpoints);
   for (std::size_t k = 1; k < c.phase.size(); ++k)
     if (c.phase[k] == c.phase[k - 1])
-      out.add(pointer + "/phase/" + std::to_string(k),
-              "stands twice (", c.phase[k], "): the transmission error must not jump; one row at a breakpoint is a kink");
+      out.add(pointer + "/phase/" + std::to_string(k), "stands twice (", c.phase[k],
+              "): the transmission error must not jump; a kink is one row at a breakpoint");
 }
 
 void check_stiffness(Problems& out, const std::string& pointer, const Mesh& mesh) {
@@ -211,24 +211,6 @@ void check_finite_support(Problems& out, const std::string& pointer, double stif
   if (!std::isfinite(stiffness)) out.add(pointer, "\"rigid\" is for modes only; time integration needs a number");
 }
 
-const char* boundary_name(Boundary boundary) {
-  switch (boundary) {
-    case Boundary::as_printed:
-      return "as_printed";
-    case Boundary::star:
-      return "star";
-    case Boundary::fixed_sun:
-      return "fixed_sun";
-    case Boundary::free:
-      return "free";
-    case Boundary::pair:
-      return "pair";
-    case Boundary::fixed_ring:
-      break;
-  }
-  return "fixed_ring";
-}
-
 /// Which torsional supports each boundary allows (docs/theory/model.md, section 4).
 void check_torsion(Problems& out, const Stage& s) {
   const std::string key = "/torsional_support_N_per_m";
@@ -236,7 +218,8 @@ void check_torsion(Problems& out, const Stage& s) {
   const double k_ru = s.ring.torsional_support_N_per_m;
   const double k_cu = s.carrier.torsional_support_N_per_m;
   if (s.planet.torsional_support_N_per_m) out.add("/lumped/planet" + key, "is of gear 2 of a pair; planets have none");
-  const char* name = boundary_name(s.boundary);
+  const std::string name(
+      std::ranges::find(boundary_names, s.boundary, [](const auto& named) { return named.second; })->first);
   const auto must_rotate = [&](const char* member, double k) {
     if (k != 0.0)
       out.add(std::string("/lumped/") + member + key, "must be 0 with boundary ", name, ", where the ", member,

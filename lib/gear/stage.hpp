@@ -17,6 +17,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,15 @@ enum class Boundary {
   free,        ///< nothing grounded: a differential, whose speeds are in a given ratio
   pair,        ///< no stage but a lone pair: gear 1 in the place of the sun, gear 2 in that of the only planet
 };
+
+/// By their names in the input.
+inline constexpr std::array<std::pair<std::string_view, Boundary>, 6> boundary_names = {
+    {{"as_printed", Boundary::as_printed},
+     {"fixed_ring", Boundary::fixed_ring},
+     {"star", Boundary::star},
+     {"fixed_sun", Boundary::fixed_sun},
+     {"free", Boundary::free},
+     {"pair", Boundary::pair}}};
 
 /// The member through which power enters the stage.
 enum class Driver { sun, carrier, ring };

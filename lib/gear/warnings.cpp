@@ -502,9 +502,8 @@ std::vector<Warning> warnings_at(const Stage& s, double mesh_frequency, const Ge
   const double density = s.catalogue ? s.catalogue->material.density_kg_per_m3 : Material{}.density_kg_per_m3;
   const Speeds w = speeds(s, mesh_frequency);
   check_speed(out, "/lumped/sun", "its teeth", w.sun, *s.sun.base_radius_mm, density);
-  const double carrier = s.boundary == Boundary::fixed_sun ? -w.carrier : w.carrier;
-  check_speed(out, "/lumped/planet", "its teeth", carrier - mesh_frequency / *s.planet.teeth, *s.planet.base_radius_mm,
-              density);
+  check_speed(out, "/lumped/planet", "its teeth", carrier_speed(s, mesh_frequency) - mesh_frequency / *s.planet.teeth,
+              *s.planet.base_radius_mm, density);
   if (!s.is_pair()) check_speed(out, "/lumped/carrier", "the planets' axes", w.carrier, *s.centre_distance_mm, density);
 
   const MeshLoad load = mean_mesh_load(s, mesh_frequency);

@@ -9,6 +9,7 @@
 #include "core/errors.hpp"
 #include "input/csv_columns.hpp"
 #include "input/pointers.hpp"
+#include "input/study_input.hpp"
 #include "model/friction_track.hpp"
 
 namespace epicyclic::input {
@@ -18,21 +19,17 @@ namespace {
 using nlohmann::json;
 
 /// The mean of a stiffness curve; nothing if its rows are wrong, which the rules of the stage report.
-std::optional<double> mean_of(const json& curve) {
+std::optional<double> mean_of(const json& rows) {
+  ReadContext context;
+  gear::StiffnessCurve curve;
+  stiffness_curve_table().read(rows, "", curve, context);
+  if (!context.findings.empty() || curve.phase.empty() || curve.phase.size() != curve.stiffness_N_per_m.size())
+    return std::nullopt;
   try {
-    gear::StiffnessCurve c;
-    curve.at("phase").get_to(c.phase);
-    curve.at("stiffness_N_per_m").get_to(c.stiffness_N_per_m);
-    curve.at("breakpoints").get_to(c.breakpoints);
-    const std::string how = curve.value("interpolation", "monotone");
-    c.interpolation = how == "smooth"   ? Interpolation::smooth
-                      : how == "linear" ? Interpolation::linear
-                                        : Interpolation::monotone;
-    if (!c.phase.empty()) return model::mean_stiffness(c);
+    return model::mean_stiffness(curve);
   } catch (const InputError&) {
-  } catch (const json::exception&) {
+    return std::nullopt;
   }
-  return std::nullopt;
 }
 
 }  // namespace

@@ -82,6 +82,14 @@ struct Bounds {
 [[nodiscard]] inline Bounds above_up_to(double min, double max) { return {min, max, true, false}; }
 [[nodiscard]] inline Bounds from_below(double min, double max) { return {min, max, false, true}; }
 
+/// Enumerators by their names.
+template <class E, class Names>
+[[nodiscard]] std::vector<std::pair<std::string, E>> named(const Names& names) {
+  std::vector<std::pair<std::string, E>> all;
+  for (const auto& [name, value] : names) all.emplace_back(std::string(name), value);
+  return all;
+}
+
 /// A rule on which keys of an object may or must stand together.
 struct KeyRule {
   enum class Kind {

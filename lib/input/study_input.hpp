@@ -191,6 +191,7 @@ class LoadedInput {
 /// The tables; keys of the study, and of the stage alone.
 [[nodiscard]] const Table<Study>& study_table();
 [[nodiscard]] const Table<gear::Stage>& stage_table();
+[[nodiscard]] const Table<gear::StiffnessCurve>& stiffness_curve_table();
 
 /// The JSON Schema (draft 2020-12) of study and stage, from the tables.
 [[nodiscard]] std::string schema_text();

@@ -421,7 +421,9 @@ const Table<gear::ErrorCurve>& error_table() {
   return table;
 }
 
-const Table<gear::StiffnessCurve>& curve_table() {
+}  // namespace
+
+const Table<gear::StiffnessCurve>& stiffness_curve_table() {
   static const auto table = [] {
     using gear::StiffnessCurve;
     Table<StiffnessCurve> t("stiffness_curve", "Mesh stiffness over the mesh's own phase, in place of harmonics.");
@@ -441,6 +443,8 @@ const Table<gear::StiffnessCurve>& curve_table() {
   return table;
 }
 
+namespace {
+
 const Table<Mesh>& mesh_table() {
   static const auto table = [] {
     Table<Mesh> t("mesh", "A mesh, the same for all planets but for the errors.");
@@ -450,7 +454,7 @@ const Table<Mesh>& mesh_table() {
               "Cosine coefficients of the harmonics 1, 2, ... of the stiffness on the mesh's own phase [N/m].");
     t.numbers("stiffness_sin_N_per_m", &Mesh::stiffness_sin_N_per_m, harmonic, 0, gear::harmonics_max,
               "Sine coefficients of the harmonics 1, 2, ... of the stiffness on the mesh's own phase [N/m].");
-    t.object("stiffness_curve", present(&Mesh::stiffness_curve), curve_table());
+    t.object("stiffness_curve", present(&Mesh::stiffness_curve), stiffness_curve_table());
     t.number("operating_pressure_angle_deg", &Mesh::operating_pressure_angle_deg, from_below(0, 90),
              "Operating pressure angle [deg]; base radii and centre distance decide where they are given.");
     t.number("damping_ratio", &Mesh::damping_ratio, damping_ratio,
@@ -671,13 +675,7 @@ const Table<Stage>& stage_table() {
   static const auto table = [] {
     Table<Stage> t("stage", "A planetary stage.");
     t.text("name", &Stage::name, "Name of the stage.");
-    t.choice("boundary", &Stage::boundary,
-             std::vector<std::pair<std::string, gear::Boundary>>{{"as_printed", gear::Boundary::as_printed},
-                                                                 {"fixed_ring", gear::Boundary::fixed_ring},
-                                                                 {"star", gear::Boundary::star},
-                                                                 {"fixed_sun", gear::Boundary::fixed_sun},
-                                                                 {"free", gear::Boundary::free},
-                                                                 {"pair", gear::Boundary::pair}},
+    t.choice("boundary", &Stage::boundary, named<gear::Boundary>(gear::boundary_names),
              "Member that is held: the ring, the carrier (`star`), the sun (`fixed_sun`), none (`free`), or none as "
              "in the printed equations of Tang et al. (`as_printed`). `pair` is a lone pair: `sun` is gear 1, which "
              "drives, `planet` is gear 2.");

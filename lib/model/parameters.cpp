@@ -220,9 +220,10 @@ void add_pin_errors(Parameters<double, N>& p, const gear::Stage& stage, const Sc
 /// (d = 1; against it d = -1), with phi_i from planet 1 for the teeth [M-shaft]:
 ///
 ///   sun      e_spi = - E_s sin(psi_s + d s / z_s + phi_spi)
-///   planet   e_spi = E_p sin(theta + phi_spi) ,  e_rpi = E_p sin(theta - phi_rpi) ,  theta = phi_i + psi_pi - d s /
-///   z_p ring     e_rpi = - E_r sin(psi_r - d s / z_r - phi_rpi) tooth k of z    e_i = p_k where it passes planet i, by
-///   the trigonometric polynomial through all teeth
+///   planet   e_spi = E_p sin(theta + phi_spi) ,  e_rpi = E_p sin(theta - phi_rpi)
+///            theta = phi_i + psi_pi - d s / z_p
+///   ring     e_rpi = - E_r sin(psi_r - d s / z_r - phi_rpi)
+///   teeth    e_i = p_k where tooth k passes planet i, by the trigonometric polynomial through all teeth
 ///
 /// In the mirror image all angles have the other sign.
 template <std::size_t N>
@@ -564,10 +565,7 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
 
   const GyroscopicForm form = gyroscopic_form(stage.boundary, options.gyroscopic);
   const double direction = stage.runs_backward() ? -1.0 : 1.0;
-  // A carrier that drives round a held sun rotates against the sun's torque, its meshes forward.
-  const double carrier = (stage.boundary == gear::Boundary::fixed_sun ? -direction : direction) *
-                         gear::speeds(stage, mesh_frequency).carrier;
-  p.carrier_speed = form.on ? carrier / scales.omega_sn : 0.0;
+  p.carrier_speed = form.on ? direction * gear::carrier_speed(stage, mesh_frequency) / scales.omega_sn : 0.0;
   for (std::size_t i = 0; i < N; ++i)
     p.centrifugal[i] =
         options.centrifugal == Centrifugal::included

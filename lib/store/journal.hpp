@@ -33,7 +33,7 @@
 namespace epicyclic::store {
 
 /// Version of the layout above and of the payloads [store/point_record.cpp]; part of a study's identity.
-inline constexpr std::uint32_t journal_format_version = 7;
+inline constexpr std::uint32_t journal_format_version = 8;
 
 /// Largest payload of a record [bytes]; a longer length in a file is damage.
 inline constexpr std::size_t journal_max_payload = std::size_t{1} << 28;

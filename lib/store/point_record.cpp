@@ -1,9 +1,7 @@
 #include "store/point_record.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -65,37 +63,19 @@ template <class A>
 void pass(A& a, studies::MeshRecord& m) {
   pass_all(a, m.delta, m.force, m.drive, m.back, m.tension, m.tension_time, m.quasi_static);
 }
-/// Forces of the planets' bearings, and behind them the lives that are known, each with a mark in its last place: a
-/// record without lives has the form that it had before there were any.
 template <class A>
-void pass_bearings(A& a, studies::StageRecord& r) {
-  constexpr double of_planet = 1.0;
-  constexpr double of_sun = 2.0;
-  const auto entry = [](const gear::BearingLife& life, double mark) {
-    return studies::Course{life.equivalent_load_N, life.million_revolutions, life.hours, mark};
-  };
-  std::vector<studies::Course> all = r.planet_bearing;
-  for (const gear::BearingLife& life : r.planet_lives) all.push_back(entry(life, of_planet));
-  if (r.sun_life) all.push_back(entry(*r.sun_life, of_sun));
-  pass(a, all);
-  const auto forces = std::min(all.size(), r.sun_planet.size());
-  r.planet_bearing.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(forces));
-  r.planet_lives.clear();
-  r.sun_life.reset();
-  for (std::size_t k = forces; k < all.size(); ++k) {
-    const gear::BearingLife life{all[k].least, all[k].largest, all[k].mean};
-    a.require(all[k].rms == of_planet || all[k].rms == of_sun, "has a life of no bearing");
-    if (all[k].rms == of_planet) r.planet_lives.push_back(life);
-    if (all[k].rms == of_sun) r.sun_life = life;
-  }
+void pass(A& a, gear::BearingLife& life) {
+  pass_all(a, life.equivalent_load_N, life.million_revolutions, life.hours);
 }
 template <class A>
 void pass(A& a, studies::StageRecord& r) {
-  pass_all(a, r.sun_planet, r.ring_planet, r.planet_spread);
-  pass_bearings(a, r);
-  pass_all(a, r.sun_bearing, r.transmission_error, r.sun_planet_harmonics, r.ring_planet_harmonics,
-           r.transmission_error_harmonics, r.force_error, r.static_force, r.mesh_frequency, r.speeds.sun,
-           r.speeds.carrier);
+  std::vector<gear::BearingLife> sun_life;
+  if (r.sun_life) sun_life.push_back(*r.sun_life);
+  pass_all(a, r.sun_planet, r.ring_planet, r.planet_spread, r.planet_bearing, r.planet_lives, r.sun_bearing, sun_life,
+           r.transmission_error, r.sun_planet_harmonics, r.ring_planet_harmonics, r.transmission_error_harmonics,
+           r.force_error, r.static_force, r.mesh_frequency, r.speeds.sun, r.speeds.carrier);
+  a.require(sun_life.size() <= 1, "has several lives of the sun's bearing");
+  r.sun_life = sun_life.empty() ? std::nullopt : std::optional(sun_life.front());
 }
 template <class A>
 void pass(A& a, studies::GridPoint& p) {

@@ -237,6 +237,8 @@ std::size_t numbers_of_window(const RampOptions& options) {
 RampCourse ramp_course(const RampOptions& options, const gear::Stage& stage, const model::Scales& scales) {
   // rpm of the sun at Omega = 1
   const double rpm = gear::rpm * gear::speeds(stage, scales.omega_sn).sun;
+  if (rpm == 0.0 && (options.from_sun_speed_rpm || options.to_sun_speed_rpm || options.rate_rpm_per_s))
+    throw DomainError("the sun is held, so that a ramp is given by from, to and rate_per_tau");
   const auto ratio = [rpm](const std::optional<double>& own, const std::optional<double>& in_rpm) {
     if (own) return *own;
     if (in_rpm) return *in_rpm / rpm;
@@ -258,27 +260,25 @@ RampCourse ramp_course(const RampOptions& options, const gear::Stage& stage, con
 }
 
 double inertia_torque_Nm(const gear::Stage& stage, double rate) {
-  const gear::Speeds per_mesh = gear::speeds(stage, 1.0);
   const auto inertia = [](double over_r2_kg, const std::optional<double>& radius_mm) {
     const double r = radius_mm.value() * 1e-3;
     return over_r2_kg * r * r;
   };
-  const double z_p = static_cast<double>(stage.planet.teeth.value());
-  double energy = inertia(stage.sun.inertia_over_r2_kg, stage.sun.base_radius_mm) * per_mesh.sun * per_mesh.sun;
-  // The speed of a planet against the carrier is omega_m / z_p, backward.
-  const double planet = per_mesh.carrier - 1.0 / z_p;
+  // Speeds at a mesh frequency of 1 rad/s; planets and ring rotate backward against the carrier.
+  const double sun = gear::speeds(stage, 1.0).sun;
+  const double carrier = gear::carrier_speed(stage, 1.0);
+  const auto behind_carrier = [carrier](int teeth) { return carrier - 1.0 / static_cast<double>(teeth); };
+  const double planet = behind_carrier(stage.planet.teeth.value());
   const auto count = static_cast<double>(stage.planet_count);
+  double energy = inertia(stage.sun.inertia_over_r2_kg, stage.sun.base_radius_mm) * sun * sun;
   energy += count * inertia(stage.planet.inertia_over_r2_kg, stage.planet.base_radius_mm) * planet * planet;
   if (!stage.is_pair()) {
     const double r_c = stage.centre_distance_mm.value() * 1e-3;
-    energy += (count * stage.planet.mass_kg + stage.carrier.inertia_over_r2_kg) * r_c * r_c * per_mesh.carrier *
-              per_mesh.carrier;
-    if (stage.boundary == gear::Boundary::star) {
-      const double ring = 1.0 / static_cast<double>(stage.ring.teeth.value());
-      energy += inertia(stage.ring.inertia_over_r2_kg, stage.ring.base_radius_mm) * ring * ring;
-    }
+    const double ring = behind_carrier(stage.ring.teeth.value());
+    energy += (count * stage.planet.mass_kg + stage.carrier.inertia_over_r2_kg) * r_c * r_c * carrier * carrier;
+    energy += inertia(stage.ring.inertia_over_r2_kg, stage.ring.base_radius_mm) * ring * ring;
   }
-  return energy * rate / per_mesh.sun;
+  return energy * rate / (sun == 0.0 ? std::abs(carrier) : sun);
 }
 
 std::optional<RampResult> run_ramp(const gear::Stage& stage, const model::Scales& scales,

@@ -62,7 +62,7 @@ struct RampResult {
   std::vector<RampWindow> windows;
   integrate::Outcome outcome = integrate::Outcome::reached;  ///< of the last window that was begun
   std::string message;
-  double inertia_torque_Nm = 0;  ///< of the whole train about the sun, left out of the equations [N m]
+  double inertia_torque_Nm = 0;  ///< inertia_torque_Nm(), left out of the equations
 };
 
 /// What a run of it remembers and shows.
@@ -82,8 +82,8 @@ struct RampControl {
                                                  const integrate::IntegratorOptions& integrator,
                                                  const RampControl& control = {});
 
-/// Torque that accelerates the whole train as a rigid one, about the sun, by Lagrange's equation for its kinetic
-/// energy [N m].
+/// Torque that accelerates the whole train as a rigid one, about the sun, or about the carrier if the sun is held, by
+/// Lagrange's equation for its kinetic energy [N m].
 /// @param rate  d omega_m / dt [rad/s^2]
 [[nodiscard]] double inertia_torque_Nm(const gear::Stage& stage, double rate);
 

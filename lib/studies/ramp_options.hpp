@@ -16,7 +16,7 @@ struct RampOptions {
   std::optional<double> rate_rpm_per_s{};                          ///< of the speed of the sun
   std::vector<Direction> directions = {Direction::up, Direction::down};
   int hold_periods = 200;               ///< mesh periods at constant speed before each ramp
-  int window_periods = 16;               ///< mesh periods of a window of the order analysis
+  int window_periods = 16;              ///< mesh periods of a window of the order analysis
   int output_phases = 64;               ///< samples per mesh period
   int orders = 4;                       ///< highest order, of the mesh frequency
   std::vector<double> torque_time_s{};  ///< of a torque over time, from the beginning of the first ramp, rising [s]

@@ -113,7 +113,7 @@ TEST(Journal, LayoutIsTheOneDocumented) {
   }
   const std::string file = contents(folder / "journal.bin");
   ASSERT_EQ(file.size(), header_size + overhead + 2);
-  EXPECT_EQ(file.substr(0, 80), std::string("epicyclic-jn\x07\0\0\0", 16) + identity);
+  EXPECT_EQ(file.substr(0, 80), std::string("epicyclic-jn\x08\0\0\0", 16) + identity);
   const std::string record = file.substr(header_size);
   const std::string covered = std::string("EPJR\x02\0\0\0\x08\x07\x06\x05\x04\x03\x02\x01", 16) + "ab";
   EXPECT_EQ(record.substr(0, 18), covered);

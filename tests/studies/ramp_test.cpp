@@ -297,5 +297,46 @@ TEST(Ramp, InertiaTorqueIsThatOfTheTrainsKineticEnergy) {
   EXPECT_NEAR(inertia_torque_Nm(pair, rate), (i_1 + i_2 / 4.0) * 30.0, 1e-12);
 }
 
+TEST(Ramp, InertiaTorqueIsThatOfAllMembersThatRotate) {
+  // Speeds by Willis' equation, z_s (w_s - w_c) = -z_r (w_r - w_c) = -z_p (w_p - w_c) = w_m, from what is held.
+  constexpr double rate = 50.0;
+  const gear::Stage r1 = problems::r1();
+  for (const gear::Stage& s : {r1, problems::star(r1), problems::fixed_sun(r1), problems::differential(r1)}) {
+    const double z_s = *s.sun.teeth;
+    const double z_r = *s.ring.teeth;
+    const double z_p = *s.planet.teeth;
+    const double held_carrier = s.boundary == gear::Boundary::fixed_ring  ? 1.0 / z_r
+                                : s.boundary == gear::Boundary::fixed_sun ? -1.0 / z_s
+                                                                          : 0.0;
+    const double ratio = s.carrier_to_sun_speed.value_or(0.0);
+    const double carrier = s.boundary == gear::Boundary::free ? ratio / (z_s * (1.0 - ratio)) : held_carrier;
+    const double sun = carrier + 1.0 / z_s;
+    const double ring = carrier - 1.0 / z_r;
+    const double planet = carrier - 1.0 / z_p;
+    const auto inertia = [](double over_r2, double radius_mm) { return over_r2 * radius_mm * radius_mm * 1e-6; };
+    const double r_c = *s.centre_distance_mm;
+    const double m = s.planet.mass_kg;
+    const double energy = inertia(s.sun.inertia_over_r2_kg, *s.sun.base_radius_mm) * sun * sun +
+                          inertia(s.ring.inertia_over_r2_kg, *s.ring.base_radius_mm) * ring * ring +
+                          inertia(s.carrier.inertia_over_r2_kg + 3.0 * m, r_c) * carrier * carrier +
+                          3.0 * inertia(s.planet.inertia_over_r2_kg, *s.planet.base_radius_mm) * planet * planet;
+    const double about = s.boundary == gear::Boundary::fixed_sun ? -carrier : sun;
+    EXPECT_NEAR(inertia_torque_Nm(s, rate) / (energy * rate / about), 1.0, 1e-12) << static_cast<int>(s.boundary);
+  }
+}
+
+TEST(Ramp, OfAHeldSunIsNotGivenByItsSpeed) {
+  const gear::Stage stage = problems::fixed_sun(problems::r1());
+  const model::Scales scales = model::scales_of(stage);
+  RampOptions options;
+  options.from = 0.5;
+  options.to = 0.8;
+  options.rate_rpm_per_s = 100.0;
+  EXPECT_THROW((void)ramp_course(options, stage, scales), DomainError);
+  options.rate_rpm_per_s.reset();
+  options.rate_per_tau = 1e-4;
+  EXPECT_GT(ramp_course(options, stage, scales).windows, 0);
+}
+
 }  // namespace
 }  // namespace epicyclic::studies::ramp_test

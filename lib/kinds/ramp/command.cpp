@@ -79,7 +79,9 @@ int run_ramp(const Arguments& arguments) {
   output.resolved_input = session.resolved();
   output.title = reports::figure_title(study);
   output.omega_sn = scales.omega_sn;
-  output.sun_rpm = gear::rpm * gear::speeds(study.stage, scales.omega_sn).sun;
+  output.speeds = gear::speeds(study.stage, scales.omega_sn);
+  const gear::Torques torques = gear::torques(study.stage, scales.omega_sn);
+  output.carrier_torque = torques.carrier / torques.sun;
   output.has_ring = !study.stage.is_pair();
   output.lubricated = study.stage.sun_planet_mesh.friction.ehl || study.stage.ring_planet_mesh.friction.ehl;
   const bool reached = result->outcome == integrate::Outcome::reached;

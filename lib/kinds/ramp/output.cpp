@@ -49,7 +49,7 @@ std::vector<Column> ramp_columns(const RampOutput& output) {
   add("mesh_frequency_Hz", "Hz", "mesh frequency there",
       [omega_sn = output.omega_sn](const RampWindow& w) { return w.omega * omega_sn / (2.0 * std::numbers::pi); });
   add("sun_speed_rpm", "rpm", "speed of the sun there",
-      [rpm = output.sun_rpm](const RampWindow& w) { return w.omega * rpm; });
+      [rpm = gear::rpm * output.speeds.sun](const RampWindow& w) { return w.omega * rpm; });
   add("torque_Nm", "N m", "torque on the sun there", [](const RampWindow& w) { return w.torque_Nm; });
   const auto add_number = [&](const char* name, const char* unit, const char* meaning, double RampWindow::*member) {
     add(name, unit, meaning, [member](const RampWindow& w) { return w.*member; });
@@ -172,12 +172,15 @@ std::string ramp_summary(const RampOutput& output, const RampResult& result) {
   constexpr int digits = 5;
   const auto number = [](double x) { return short_text(x, digits); };
   const studies::RampCourse& c = result.course;
+  const bool sun_rotates = output.speeds.sun != 0.0;
+  const char* rotating = sun_rotates ? "sun" : "carrier";
+  const double rpm = gear::rpm * (sun_rotates ? output.speeds.sun : output.speeds.carrier);
   std::string text = "# " + reports::markdown_cell(output.title) + "\n\n";
   text += reports::wrapped(fmt::format(
-      "The mesh frequency ratio changes by {} per unit of the dimensionless time, between {} and {}. The sun's "
+      "The mesh frequency ratio changes by {} per unit of the dimensionless time, between {} and {}. The {}'s "
       "speed changes by {} rpm/s, between {} and {} rpm. A ramp has {} windows of {} mesh periods.",
-      number(c.rate), number(c.from), number(c.to), number(c.rate * output.sun_rpm * output.omega_sn),
-      number(c.from * output.sun_rpm), number(c.to * output.sun_rpm), c.windows, c.window_periods));
+      number(c.rate), number(c.from), number(c.to), rotating, number(c.rate * rpm * output.omega_sn),
+      number(c.from * rpm), number(c.to * rpm), c.windows, c.window_periods));
   text += "\n" + reports::wrapped("Regimes are not claimed: a response at a changing speed does not repeat.");
   if (result.outcome != integrate::Outcome::reached)
     text += "\n" + reports::wrapped("**The integration ended early**: " + result.message + ".");
@@ -208,13 +211,14 @@ std::string ramp_summary(const RampOutput& output, const RampResult& result) {
   double least = std::numeric_limits<double>::infinity();
   double largest = -least;
   for (const RampWindow& w : result.windows) {
-    least = std::min(least, w.torque_Nm);
-    largest = std::max(largest, w.torque_Nm);
+    const double torque_Nm = sun_rotates ? w.torque_Nm : output.carrier_torque * w.torque_Nm;
+    least = std::min(least, torque_Nm);
+    largest = std::max(largest, torque_Nm);
   }
   bullet(
-      fmt::format("The inertia torques of the acceleration are left out. That of the whole train, about the sun, is "
+      fmt::format("The inertia torques of the acceleration are left out. That of the whole train, about the {}, is "
                   "{} N m; that of the load is from {} to {} N m.",
-                  number(result.inertia_torque_Nm), number(least), number(largest)));
+                  rotating, number(result.inertia_torque_Nm), number(least), number(largest)));
   if (!output.options.torque_time_s.empty())
     bullet("Both torques follow the given torque over time in one proportion.");
   if (output.lubricated) bullet("Friction coefficients are those of the speed in the middle of each window.");

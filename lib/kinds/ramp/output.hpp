@@ -23,9 +23,9 @@ struct RampOutput {
   studies::RampOptions options;
   std::string resolved_input;
   std::string title;
-  double omega_sn = 0;     ///< [rad/s]
-  double sun_rpm = 0;      ///< speed of the sun at Omega = 1 [rpm]
-  double half_gap_sp = 0;  ///< b_sp [b_c]
+  double omega_sn = 0;        ///< [rad/s]
+  gear::Speeds speeds{};      ///< at Omega = 1
+  double carrier_torque = 0;  ///< over that on the sun
   bool has_ring = true;
   bool lubricated = false;  ///< friction follows the speed window by window
 };
