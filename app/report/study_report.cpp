@@ -39,6 +39,7 @@
 #include "studies/known_attractors.hpp"
 #include "studies/named_parameters.hpp"
 #include "studies/plane_options.hpp"
+#include "studies/ramp.hpp"
 #include "sweep_changes.hpp"
 #include "sweep_records.hpp"
 
@@ -117,6 +118,13 @@ Described described_columns(const std::string& table) {
 
 ReportColumn described(const Described& known, const std::string& table, const std::string& name) {
   if (const auto found = known.find(name); found != known.end()) return found->second;
+  if (table == "ramp.csv" || table == "orders.csv") {
+    if (name == "mesh_frequency_ratio") return {name, "1", "Mesh frequency ratio Ω"};
+    const auto order = name.find("_order_");
+    if (order != std::string::npos)
+      return {name, "b_c", "order " + name.substr(order + 7) + " of δ_sp,1"};
+    if (name.starts_with("delta_")) return {name, "b_c", ""};
+  }
   if (table == "history.csv") {
     if (name == "periods") return {name, "1", "time in mesh periods"};
     if (name == "tau") return {name, "1", "dimensionless time τ"};
@@ -164,9 +172,12 @@ const char* title_of_table(const std::string& name) {
       {"friction.csv", "friction along the path of contact"},
       {"friction_ratios.csv", "friction over normal force, over the mesh phase in mesh periods"},
       {"bearings.csv", "force and stiffness of the bearings over their deflection"},
+      {"static_transmission_error.csv", "static transmission error under load"},
       {"modes.csv", "natural modes"},
       {"mode_shapes.csv", "shapes of the modes"},
       {"campbell.csv", "mesh frequencies at which a harmonic meets a natural frequency"},
+      {"ramp.csv", "response to the changing speed, window by window"},
+      {"orders.csv", "amplitudes of mesh orders, window by window"},
       {"tolerance.csv", "errors and cost of each method and tolerance"},
       {"smoothing.csv", "distance from the orbit with exact clearance"},
       {"quantities.csv", "error bars of quantities"},
@@ -331,9 +342,15 @@ class StudyReport {
           "{} from {} to {}{}. ", parameters[k]["label"].get<std::string>(), short_text(axes[k].from, 6),
           short_text(axes[k].to, 6),
           axes[k].points > 1 && study.kind() != "continue" ? fmt::format(", {} values", axes[k].points) : "");
+    const auto* ramp = study.plan.get_if<studies::RampOptions>();
+    if (ramp != nullptr) {
+      const auto course = studies::ramp_course(*ramp, study.stage, model::scales_of(study.stage));
+      lead += fmt::format("Mesh frequency ratio Ω from {} to {} by {} per unit of τ. ", short_text(course.from, 6),
+                          short_text(course.to, 6), short_text(course.rate, 6));
+    }
     if (const std::string directions = directions_of(study); !directions.empty())
       lead += "Direction: " + directions + ". ";
-    if (study.has_dynamics() && axes.empty())
+    if (study.has_dynamics() && axes.empty() && ramp == nullptr)
       lead += "Mesh frequency ratio Ω = " + short_text(study.mesh_frequency_ratio, 8) + ". ";
     lead += "Boundary: " + boundary_words(study.stage.boundary) + ".";
     study_["lead"] = lead;
@@ -347,6 +364,7 @@ class StudyReport {
     std::vector<studies::Direction> directions;
     if (const auto* sweep = study.plan.get_if<studies::SweepOptions>()) directions = sweep->directions;
     if (const auto* map = study.plan.get_if<studies::MapOptions>()) directions = map->directions;
+    if (const auto* ramp = study.plan.get_if<studies::RampOptions>()) directions = ramp->directions;
     std::string words;
     for (const studies::Direction direction : directions)
       words += (words.empty() ? "" : " and ") + store::direction_word(direction);

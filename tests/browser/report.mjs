@@ -1,7 +1,8 @@
 // node report.mjs CHROMIUM FOLDER
 //
-// Opens the reports in FOLDER (sweep.html, both.html, torus.html, map.html, basins.html, run.html, gear.html, unfinished.html,
-// hostile.html) as a reader would: no error, no request, zoom, hover, click, keys, dark, a narrow screen, a PDF.
+// Opens the reports in FOLDER (sweep.html, both.html, torus.html, map.html, basins.html, run.html, gear.html,
+// ramp.html, unfinished.html, hostile.html) as a reader would: no error, no request, zoom, hover, click, keys, dark, a
+// narrow screen, a PDF.
 import { readFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
 import { join } from 'node:path';
@@ -224,7 +225,7 @@ await checks.run(browser, async () => {
     );
     clean(page, 'dark');
   }
-  for (const name of ['sweep.html', 'both.html', 'map.html', 'basins.html', 'run.html', 'gear.html']) {
+  for (const name of ['sweep.html', 'both.html', 'map.html', 'basins.html', 'run.html', 'gear.html', 'ramp.html']) {
     const page = await open(name, { width: 390, height: 844 });
     await page.value("document.querySelector('.figure')?.focus()");
     await page.key('ArrowRight');
@@ -362,6 +363,15 @@ await checks.run(browser, async () => {
     const quiet = await open('gear.html', { calm: true });
     expect((await quiet.value("document.querySelector('.modes button').textContent")) === 'Play', 'reduced motion');
     clean(quiet, 'reduced motion');
+  }
+  {
+    // The response over the changing speed, and its range in place of one speed.
+    const page = await open('ramp.html');
+    const words = await page.value('document.body.innerText');
+    expect(words.includes('Mesh frequency ratio Ω from 0.8 to 0.9'), 'the lead of a ramp');
+    expect(words.includes('Direction: up and down'), 'the directions of a ramp');
+    expect((await page.value("document.querySelectorAll('.panel').length")) === 1, 'the figure of a ramp');
+    clean(page, 'ramp.html');
   }
   {
     const page = await open('unfinished.html');

@@ -19,6 +19,8 @@ reported both sweep branches
 study sweep "$inputs/tang2020_calibrated_speed.json" -o torus --set /study/from=2.6 --set /study/to=2.62 --set /study/points=3 \
   --set '/study/directions=["up"]' --set /study/crosscheck/points=0
 reported torus torus
+study ramp "$inputs/tang2020_ramp.json" -o ramp --set /study/from=0.8 --set /study/to=0.9 --set /study/hold_periods=20
+reported ramp ramp
 reported map map
 reported basins basins
 reported run run
