@@ -280,7 +280,11 @@ const Table<Catalogue>& catalogue_table() {
     t.object("sun_bearing", present(&Catalogue::sun_bearing), bearing_table());
     t.object("planet", &Catalogue::planet, external_table("planet")).required();
     t.object("planet_bearing", present(&Catalogue::planet_bearing), bearing_table());
-    t.object("ring", &Catalogue::ring, ring_table()).required();
+    t.object("ring",
+             table_detail::Access<Catalogue, RingGear>{
+                 [](Catalogue& c) -> RingGear& { return c.ring; },
+                 [](const Catalogue& c) -> const RingGear* { return c.has_ring() ? &c.ring : nullptr; }},
+             ring_table());
     t.object("carrier", &Catalogue::carrier, carrier_table());
     t.object("mesh_stiffness", &Catalogue::stiffness, stiffness_table());
     t.object("lubrication", present(&Catalogue::lubrication), lubrication_table());

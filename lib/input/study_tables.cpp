@@ -747,7 +747,7 @@ ordered_json catalogue_stage_schema(ordered_json stage) {
       for (auto& [key, property] : properties->items()) relax(property);
   };
   relax(stage["properties"]["lumped"]);
-  stage["required"] = {"planets", "catalogue"};
+  stage["required"] = {"catalogue"};
   stage["title"] = "stage of catalogue data";
   return stage;
 }
@@ -773,7 +773,12 @@ std::string schema_text() {
   ordered_json stage = stage_table().schema();
   ordered_json catalogue_stage = catalogue_stage_schema(stage);
   // The keys of lumped_table() that are not required of a pair.
-  stage["if"] = {{"properties", {{"boundary", {{"const", "pair"}}}}}, {"required", {"boundary"}}};
+  const ordered_json of_pair = {{"properties", {{"boundary", {{"const", "pair"}}}}}, {"required", {"boundary"}}};
+  stage["if"] = of_pair;
+  catalogue_stage["if"] = of_pair;
+  catalogue_stage["else"] = {
+      {"required", {"planets"}},
+      {"properties", {{"planets", {{"required", {"count"}}}}, {"catalogue", {{"required", {"ring"}}}}}}};
   stage["else"] = {
       {"required", {"planets"}},
       {"properties",
