@@ -506,7 +506,8 @@ const Table<Stage>& planets_table() {
     t.numbers("angles_deg", &Stage::angles_deg, between(-largest_angle_deg, largest_angle_deg), 1, gear::planets_max,
               "Angle of each planet [deg]; equally spaced from 0 if not given.");
     t.number("centre_distance_mm", &Stage::centre_distance_mm, length,
-             "Distance between the axes of sun and planet [mm]; needed for time integration.");
+             "Distance between the axes of sun and planet, or of the gears of a pair [mm]; needed for time integration "
+             "of a stage.");
     return t;
   }();
   return table;
