@@ -687,7 +687,7 @@ GearFigure campbell_figure(const fs::path& folder, const gear::Stage& stage, con
 
 /// Radii of the circles of the members, in centre distances.
 struct SchematicRadii {
-  double sun, planet, ring;                 // as drawn
+  double sun, planet, ring;                 // as drawn; in place of the ring's half of the width of a pair
   double sun_base, planet_base, ring_base;  // of u = r theta
 };
 
@@ -696,6 +696,12 @@ SchematicRadii schematic_radii(const gear::Stage& stage) {
   const auto& s = stage.sun.base_radius_mm;
   const auto& p = stage.planet.base_radius_mm;
   const auto& r = stage.ring.base_radius_mm;
+  if (stage.is_pair()) {
+    const double a = s && p ? stage.centre_distance_mm.value_or(*s + *p) : 0.0;
+    if (a == 0.0) return {0.5, 0.5, 1.0, 0.5, 0.5, 1.0};
+    const double first = *s / (*s + *p);
+    return {first, 1.0 - first, 1.0, *s / a, *p / a, 1.0};
+  }
   if (!s || !p || !r || !stage.centre_distance_mm) return {0.5, 0.5, 1.5, 0.5, 0.5, 1.5};
   const double a = *stage.centre_distance_mm;
   const double sun = *s / (*s + *p);  // operating pitch circles touch
@@ -723,7 +729,8 @@ Eigen::VectorXd drawn_shape(const model::Mode& mode, std::size_t planets) {
 /// The circles and marks of all panels, one list per kind of member.
 class ShapeDrawing {
  public:
-  explicit ShapeDrawing(const gear::Stage& stage) : radii_(schematic_radii(stage)), angles_(stage.planet_angles_deg()) {
+  explicit ShapeDrawing(const gear::Stage& stage)
+      : pair_(stage.is_pair()), radii_(schematic_radii(stage)), angles_(stage.planet_angles_deg()) {
     for (double& angle : angles_) angle *= pi / 180.0;
   }
 
@@ -740,6 +747,13 @@ class ShapeDrawing {
     const auto displacement = [&](std::size_t slot_x, std::size_t slot_y, std::size_t slot_u, double base) {
       return Displacement{at(slot_x), at(slot_y), at(slot_u) / base};
     };
+    if (pair_) {
+      const double axis = x - (radii_.planet - radii_.sun + 1.0) / 2.0;  // the pair in the middle
+      place(axis + 1.0, y, radii_.planet, pi,
+            displacement(Slots::x_p(0), Slots::y_p(0), Slots::w_p(0), radii_.planet_base), planet_member);
+      place(axis, y, radii_.sun, 0.0, displacement(Slots::x_s, Slots::y_s, Slots::w_s, radii_.sun_base), sun_member);
+      return;
+    }
     const Displacement none{};
     const Displacement carrier = displacement(Slots::x_c(n), Slots::y_c(n), Slots::u_c(Layout::full, n), 1.0);
     carrier_of(x, y, none, rest_marks_);
@@ -759,10 +773,16 @@ class ShapeDrawing {
     sketch.add(rest_circles_, circles(light_grey, 1));
     sketch.add(rest_marks_, figures::solid(light_grey, 1));
     for (const std::size_t k : {carrier_member, ring_member, planet_member, sun_member}) {
+      if (circles_[k].empty() && marks_[k].empty()) continue;
       sketch.add(circles_[k], circles(colours[k], 1.6));
       sketch.add(marks_[k], figures::solid(colours[k], 1.8));
     }
-    for (std::size_t k = 0; k < names.size(); ++k) sketch.entry(figures::solid(colours[k], 2), names[k]);
+    static constexpr std::array<std::string_view, 2> names_of_pair{"gear 1", "gear 2"};
+    if (pair_)
+      for (std::size_t k = 0; k < names_of_pair.size(); ++k)
+        sketch.entry(figures::solid(colours[k], 2), names_of_pair[k]);
+    else
+      for (std::size_t k = 0; k < names.size(); ++k) sketch.entry(figures::solid(colours[k], 2), names[k]);
     sketch.entry(figures::solid(light_grey, 1), "at rest");
   }
 
@@ -797,6 +817,7 @@ class ShapeDrawing {
     for (const double angle : angles_) mark(marks, x + m.x, y + m.y, 0.0, 1.0, angle + m.angle);
   }
 
+  bool pair_;
   SchematicRadii radii_;
   std::vector<double> angles_;
   std::vector<Row3> rest_circles_;

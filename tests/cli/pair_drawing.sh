@@ -8,7 +8,7 @@ few=(--set /study/points=4 --set /study/transient_periods=10 --set /study/record
 
 [ "$(code_of "$epicyclic" check "$pair" --no-time)" = 0 ] || fail "check: $(<stderr)"
 [ "$(code_of "$epicyclic" gear "$pair" -o gear)" = 0 ] || fail "gear: $(<stderr)"
-grep -qi 'ring\|planets' gear/gear.md && fail "gear.md of a pair has ring or planets: $(grep -i -m1 'ring\|planets' gear/gear.md)"
+grep -qi '\bring\b\|carrier\|ring_planet' gear/gear.md && fail "gear.md of a pair has a ring: $(grep -i -m1 '\bring\b\|carrier\|ring_planet' gear/gear.md)"
 for file in geometry stiffness load_sharing friction friction_ratios static_transmission_error modes; do
   [ -s "gear/$file.csv" ] || fail "$file.csv is missing"
 done
