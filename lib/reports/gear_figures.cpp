@@ -652,7 +652,9 @@ void add_frequency_axis(figures::Sketch& sketch, double frequency_max, double om
   const double unit_kHz = omega_sn / (2.0 * pi) * 1e-3;
   sketch.command("set ytics nomirror");
   sketch.command(fmt::format("set y2range [0:{}]", figures::figure_number(frequency_max * unit_kHz)));
-  sketch.command("set y2tics\nset my2tics 5\nset y2label 'Frequency  [kHz]'\nset rmargin screen 0.915");
+  constexpr double with_decimals = 5.0;  // tics below need more room
+  sketch.command(fmt::format("set y2tics\nset my2tics 5\nset y2label 'Frequency  [kHz]'\nset rmargin screen {}",
+                             frequency_max * unit_kHz < with_decimals ? 0.9 : 0.915));
 }
 
 GearFigure campbell_figure(const fs::path& folder, const gear::Stage& stage, const std::vector<model::Mode>& modes,
@@ -838,7 +840,8 @@ std::array<std::string, 2> panel_titles(const model::Mode& mode, double omega_sn
 /// All of them: the figure is as high as they need.
 GearFigure mode_shapes_figure(const fs::path& folder, const gear::Stage& stage, const std::vector<model::Mode>& modes,
                               double omega_sn) {
-  const std::size_t columns = modes.size() > 12 ? 6 : 4;
+  constexpr std::size_t columns_of_pair = 3;
+  const std::size_t columns = stage.is_pair() ? std::min(modes.size(), columns_of_pair) : modes.size() > 12 ? 6 : 4;
   const std::size_t lines = (modes.size() + columns - 1) / columns;
   ShapeDrawing drawing(stage);
   // In radii of the ring, which moves by no more than a sixth of it.

@@ -316,27 +316,29 @@ std::vector<Quantity> operating_quantities(const gear::Stage& stage, double mesh
   const gear::MeshLoad load = gear::mean_mesh_load(stage, mesh_frequency);
   g.add("mesh_frequency_ratio", "Ω", mesh_frequency_ratio, "-", "of the study; 1 for a stage alone");
   g.add("mesh_frequency", "ω_m", mesh_frequency, "rad/s", "[M-23]");
-  g.add("sun_speed", "n_s", speeds.sun * gear::rpm, "rpm", "[G-kin]");
   const bool pair = stage.is_pair();  // it has no carrier and no ring
+  g.add("sun_speed", pair ? "n_1" : "n_s", speeds.sun * gear::rpm, "rpm", "[G-kin]");
   if (!pair) g.add("carrier_speed", "n_c", speeds.carrier * gear::rpm, "rpm", "[G-kin]");
-  g.add("sun_torque", "T_D", torques.sun, "N m", "[G-kin]");
+  g.add("sun_torque", pair ? "T_1" : "T_D", torques.sun, "N m", "[G-kin]");
   if (!pair) {
     g.add("carrier_load_torque", "T_c", torques.carrier, "N m", "[G-kin], external");
     g.add("ring_load_torque", "T_r", torques.ring, "N m", "[G-kin], external; without the reaction of a support");
   }
-  g.add("mean_mesh_force", "F", load.force_N, "N", "T_D / (N r_bs)");
+  g.add("mean_mesh_force", "F", load.force_N, "N", pair ? "T_1 / r_b1" : "T_D / (N r_bs)");
   g.add("mean_planet_load", "F_p", gear::mean_planet_load(stage, mesh_frequency), "N",
-        "both mesh forces on a planet's bearing");
+        pair ? "on each bearing" : "both mesh forces on a planet's bearing");
   if (!pair)
     g.add("planet_centrifugal_force", "m_p ω_c² r_c", gear::planet_centrifugal_force(stage, mesh_frequency), "N",
           "[G-cf], in the equations of motion with /model/centrifugal \"included\"");
-  g.add("mean_deflection", "F/k_0", gear::static_deflection_um(stage.sun_planet_mesh, load), "um", "sun-planet mesh");
+  g.add("mean_deflection", "F/k_0", gear::static_deflection_um(stage.sun_planet_mesh, load), "um",
+        pair ? "at the mean stiffness" : "sun-planet mesh");
   if (!pair)
     g.add("mean_deflection_ring_planet", "F/k_0", gear::static_deflection_um(stage.ring_planet_mesh, load), "um",
           "ring-planet mesh");
   const auto error = [&](const std::string& name, const gear::Mesh& mesh) {
     const double amplitude = std::ranges::max(mesh.error_amplitude_um);
-    g.add(name + "_error_amplitude", "E", amplitude, "um", "[G-error], or as given; the largest of the planets");
+    g.add(name + "_error_amplitude", "E", amplitude, "um",
+          pair ? "[G-error], or as given" : "[G-error], or as given; the largest of the planets");
     g.add(name + "_error_over_deflection", "E k_0/F", amplitude / gear::static_deflection_um(mesh, load), "-",
           "above 1 the error displaces the mesh more than the load does");
   };
