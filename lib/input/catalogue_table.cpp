@@ -235,10 +235,10 @@ const Table<gear::StiffnessOptions>& stiffness_table() {
              "Factor on the computed stiffness of the sun-planet mesh [-].");
     t.number("ring_planet_factor", &StiffnessOptions::ring_planet_factor, factor,
              "Factor on the computed stiffness of the ring-planet mesh [-].");
-    t.number("design_torque_Nm", &StiffnessOptions::design_torque_Nm, between(1e-9, 1e9),
-             "Torque on the sun, or on gear 1 of a pair, at which the contact of modified flanks is computed; that of "
-             "the load if it is not "
-             "given [N m].");
+    t.number(
+        "design_torque_Nm", &StiffnessOptions::design_torque_Nm, between(1e-9, 1e9),
+        "Torque on the sun or on gear 1, at which the contact of modified flanks is computed; by default that of the "
+        "load [N m].");
     t.number("table_tolerance", &StiffnessOptions::table_tolerance, table_tolerance,
              "Error that the rows of the whole curve are made fine enough for, relative to the mean [-].");
     return t;
