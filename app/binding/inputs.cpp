@@ -145,6 +145,7 @@ void add_inputs(py::module_& module) {
 
   py::class_<app::InitArguments>(module, "Drawing")
       .def(py::init<>())
+      .def_readwrite("pair", &app::InitArguments::pair)
       .def_readwrite("teeth", &app::InitArguments::teeth)
       .def_readwrite("profile_shifts", &app::InitArguments::profile_shifts)
       .def_readwrite("module_mm", &app::InitArguments::module_mm)

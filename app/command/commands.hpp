@@ -41,7 +41,8 @@ struct PlotArguments {
 
 /// What the command line gives to `init`, of a drawing.
 struct InitArguments {
-  std::vector<int> teeth;                 ///< sun, planet, ring
+  bool pair = false;                      ///< a lone pair of gears
+  std::vector<int> teeth;                 ///< sun, planet, ring; of a pair: gear 1, gear 2
   std::vector<double> profile_shifts;     ///< likewise
   std::optional<double> helix_angle_deg;  ///< refused, with the reason
   std::optional<double> module_mm{}, pressure_angle_deg{}, width_mm{};

@@ -17,6 +17,7 @@ constexpr Row rows[] = {
     {"init",
      {"with torque [N m] and speed [rpm] of the sun",
       "epicyclic init set --teeth 21,28,77 --module 3 --width 30 --torque 480 --speed 3000"}},
+    {"init", {"a lone pair of gears", "epicyclic init pair --pair --teeth 24,37 --module 4 --shifts 0.25,0.1"}},
     {"gear", {"stiffness, friction and modes of a stage", "epicyclic gear tang2020 -o out/gear"}},
     {"gear", {"the same with another load", "epicyclic gear tang2020 -o out/load --set /load/power_kW=200"}},
     {"sweep", {"an installed study, into out/tang2020_speed", "epicyclic sweep tang2020_speed"}},

@@ -33,12 +33,28 @@ constexpr const char* stage_name = "stage.json";
 constexpr const char* sweep_name = "speed.json";
 constexpr const char* run_name = "point.json";
 
+/// As many numbers as the drawing has gears; no planets of a pair.
+void check_numbers(const InitArguments& given) {
+  const auto refuse = [](const char* why) { throw InputError(std::string("init: ") + why); };
+  const std::size_t shifts = given.profile_shifts.size();
+  if (!given.pair) {
+    if (shifts != 0 && shifts != 3) refuse("--shifts of a stage are three: X_SUN,X_PLANET,X_RING");
+    return;
+  }
+  if (shifts != 0 && shifts != 2) refuse("--shifts of a pair are two: X_1,X_2");
+  if (given.teeth.size() > 2) refuse("--teeth of a pair are two: Z_1,Z_2; without --pair they are of a stage");
+  if (given.planets || !given.angles_deg.empty())
+    refuse("a pair has no planets: leave out --planets and --angles, or --pair");
+}
+
 }  // namespace
 
 input::Drawing drawing_of(const Arguments& arguments) {
   const InitArguments& given = arguments.init;
   if (given.helix_angle_deg) throw InputError(std::string("--helix-angle: ") + input::no_helix);
   input::Drawing d;
+  d.pair = given.pair;
+  check_numbers(given);
   fs::path folder = fs::weakly_canonical(arguments.output);
   if (folder.filename().empty()) folder = folder.parent_path();  // "set/"
   if (const std::string name = folder.filename().string(); !name.empty()) d.name = name;
@@ -57,10 +73,10 @@ input::Drawing drawing_of(const Arguments& arguments) {
   take(d.width_mm, given.width_mm, "width_mm");
   if (given.teeth.empty()) d.assumed.emplace("teeth");
   if (given.profile_shifts.empty()) d.assumed.emplace("profile_shift");
-  if (!given.planets && given.angles_deg.empty()) d.assumed.emplace("count");
+  if (!given.pair && !given.planets && given.angles_deg.empty()) d.assumed.emplace("count");
   d.angles_deg = given.angles_deg;
   const int of_angles = d.angles_deg.empty() ? d.planets : static_cast<int>(d.angles_deg.size());
-  d.planets = given.planets.value_or(of_angles);
+  d.planets = given.pair ? 1 : given.planets.value_or(of_angles);
   d.torque_Nm = given.torque_Nm;
   d.speed_rpm = given.speed_rpm;
   return d;
@@ -118,12 +134,12 @@ int init_command(const Arguments& arguments) {
   if (drawing.assumed.contains("module_mm")) print("no --module: {:g} mm\n", drawing.module_mm);
   if (drawing.assumed.contains("count")) print("no --planets: {}\n", drawing.planets);
   if (!drawing.torque_Nm)
-    print("no --torque: {:g} N m on the sun, 60 N/mm2 times module and face width on each mesh\n",
-          input::torque_Nm(drawing));
+    print("no --torque: {:g} N m on {}, 60 N/mm2 times module and face width{}\n", input::torque_Nm(drawing),
+          drawing.pair ? "gear 1" : "the sun", drawing.pair ? "" : " on each mesh");
   if (!drawing.speed_rpm)
     print("no --speed: the diagram is over mesh frequency ratios from 0.2 to 2; `check` prints them in rpm\n");
   print(
-      "{}  the gear set; values that no drawing states have the origin \"estimate\", a reason and a range: enter what "
+      "{}  the {}; values that no drawing states have the origin \"estimate\", a reason and a range: enter what "
       "you know\n"
       "{}  study of a diagram over the speed\n"
       "{}  study of one speed, with all results\n"
@@ -131,8 +147,8 @@ int init_command(const Arguments& arguments) {
       "  {} gear {} -o {}\n"
       "  {} check {}\n"
       "  {} sweep {} -o {}\n",
-      path(stage_name), path(sweep_name), path(run_name), program, path(run_name), path("out/gear"), program,
-      path(sweep_name), program, path(sweep_name), path("out/speed"));
+      path(stage_name), drawing.pair ? "pair" : "gear set", path(sweep_name), path(run_name), program, path(run_name),
+      path("out/gear"), program, path(sweep_name), program, path(sweep_name), path("out/speed"));
   return done;
 }
 

@@ -123,6 +123,8 @@ void add_assert_options(CLI::App& command, Arguments& arguments) {
 void add_init_options(CLI::App& command, Arguments& arguments) {
   InitArguments& init = arguments.init;
   command.add_option("FOLDER", arguments.output, "folder for stage.json, speed.json and point.json")->required();
+  command.add_flag("--pair", init.pair,
+                   "a lone pair of gears: gear 1 is in the place of the sun, gear 2 in that of the planet");
   command
       .add_option("--teeth", init.teeth,
                   "teeth: Z_SUN,Z_PLANET[,Z_RING]; default 21,28,77; default Z_RING = Z_SUN + 2 Z_PLANET")
@@ -133,9 +135,9 @@ void add_init_options(CLI::App& command, Arguments& arguments) {
   command
       .add_option("--shifts", init.profile_shifts,
                   "profile shifts X_SUN,X_PLANET,X_RING [-]; default 0,0,0. Both meshes have the same centre distance "
-                  "if X_RING = X_SUN + 2 X_PLANET")
+                  "if X_RING = X_SUN + 2 X_PLANET. Of a pair: X_1,X_2")
       ->delimiter(',')
-      ->expected(3);
+      ->expected(2, 3);
   command.add_option("--helix-angle", init.helix_angle_deg)->group("");  // refused, with the reason
   command.add_option("--width", init.width_mm, "face width [mm]; default 30");
   command.add_option("--planets", init.planets, "number of planets; default 3, or the number of --angles");

@@ -1,4 +1,5 @@
-// A planetary stage as drawings and catalogues give it. gear/gear_set.hpp computes the lumped stage from it.
+// A planetary stage, or a lone gear pair, as drawings and catalogues give it. gear/gear_set.hpp computes the lumped
+// stage from it. Gear 1 of a pair is in the place of the sun, gear 2 in that of the planet.
 //
 // All gears share one material. Every value that a drawing states is a member; what it rarely states has the default of
 // common practice, and the summary of `epicyclic gear` says which defaults were used.
@@ -101,11 +102,13 @@ struct Catalogue {
   ExternalGear sun, planet;
   std::optional<SupportBearing> sun_bearing;
   std::optional<SupportBearing> planet_bearing{};
-  RingGear ring;
+  RingGear ring;  ///< without teeth: there is none
   CarrierData carrier;
   StiffnessOptions stiffness;
   std::optional<Lubrication> lubrication;
   ErrorAmplitude error_amplitude = ErrorAmplitude::profile_form;
+
+  [[nodiscard]] bool has_ring() const { return ring.data.teeth > 0; }
 
   /// Has any flank a relief or a crowning?
   [[nodiscard]] bool is_modified() const {

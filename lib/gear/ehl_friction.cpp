@@ -196,7 +196,8 @@ FrictionTable friction_table(const EhlFriction& e, const LineOfAction& line, con
       std::array<double, 3> row{};
       for (int j = 0; inside + j < e.contact_ratio; ++j) {
         const double position = std::min(phase + j, e.contact_ratio);
-        const double share = shares.at(position, inside + j);
+        // Between its rows a share that ends at 0 may be below it by their error.
+        const double share = std::max(0.0, shares.at(position, inside + j));
         const LubricatedContact contact = lubricated_contact(e, line, load, position, share);
         const double arm = e.path_start_mm + line.base_pitch_mm * position;
         const double mu = xu_friction_coefficient(contact);

@@ -91,13 +91,14 @@ GearSet geometry_of(const Stage& stage) {
   }
   set.sun = external_tooth(s, set.tip_shortening);
   set.planet = external_tooth(p, set.tip_shortening);
+  const ComplianceOptions& o = c.stiffness.compliance;
+  set.sun_planet = {make_pair(set.sun, set.planet, set.centre_distance_mm), body_of(c.sun, set.sun, c.material),
+                    body_of(c.planet, set.planet, c.material), o, c.stiffness.sun_planet_factor};
+  if (set.is_pair()) return set;
   const GearData ring = c.ring.base_pitch == BasePitch::of_planet ? of_planet_base_pitch(c.ring.data, p) : c.ring.data;
   set.ring = internal_tooth(ring);
   set.ring_module_mm = ring.module_mm;
   set.base_pitch_mismatch_mm = base_pitch(p) - base_pitch(c.ring.data);
-  const ComplianceOptions& o = c.stiffness.compliance;
-  set.sun_planet = {make_pair(set.sun, set.planet, set.centre_distance_mm), body_of(c.sun, set.sun, c.material),
-                    body_of(c.planet, set.planet, c.material), o, c.stiffness.sun_planet_factor};
   set.ring_planet = {make_pair(set.planet, set.ring, set.centre_distance_mm), body_of(c.planet, set.planet, c.material),
                      body_of(c.ring, set.ring, c.material), o, c.stiffness.ring_planet_factor};
   set.ring_mesh_lead = lead_of_ring_mesh(set.sun_planet.pair, set.ring_planet.pair);
@@ -179,9 +180,10 @@ void check_fillet(Problems& out, const GearSet& set) {
   };
   const Pair& sp = set.sun_planet.pair;
   const Pair& rp = set.ring_planet.pair;
-  lowest(sun_pointer, "sun-planet", sp.radius_1_mm(sp.start_mm), set.sun);
-  lowest(planet_pointer, "sun-planet", sp.radius_2_mm(sp.end_mm), set.planet);
-  lowest(planet_pointer, "ring-planet", rp.radius_1_mm(rp.start_mm), set.planet);
+  const std::string words = sun_planet_words(set.is_pair());
+  lowest(sun_pointer, words, sp.radius_1_mm(sp.start_mm), set.sun);
+  lowest(planet_pointer, words, sp.radius_2_mm(sp.end_mm), set.planet);
+  if (!set.is_pair()) lowest(planet_pointer, "ring-planet", rp.radius_1_mm(rp.start_mm), set.planet);
 }
 
 void check_bodies(Problems& out, const GearSet& set) {
@@ -206,24 +208,25 @@ void check_accuracy(Problems& out, const GearSet& set) {
   const Catalogue& c = set.catalogue;
   member(sun_pointer, c.sun.accuracy_grade, set.sun, set.sun_planet.contact_ratio());
   member(planet_pointer, c.planet.accuracy_grade, set.planet, set.sun_planet.contact_ratio());
-  member(ring_pointer, c.ring.accuracy_grade, set.ring, set.ring_planet.contact_ratio());
+  if (c.has_ring()) member(ring_pointer, c.ring.accuracy_grade, set.ring, set.ring_planet.contact_ratio());
 }
 
 /// Reports each member whose data make no tooth.
 bool each_tooth_exists(Problems& out, const Catalogue& c) {
   const bool sun = tried(out, sun_pointer, [&] { (void)external_tooth(c.sun.data); });
   const bool planet = tried(out, planet_pointer, [&] { (void)external_tooth(c.planet.data); });
-  const bool ring = tried(out, ring_pointer, [&] { (void)internal_tooth(c.ring.data); });
+  const bool ring = !c.has_ring() || tried(out, ring_pointer, [&] { (void)internal_tooth(c.ring.data); });
   return sun && planet && ring;
 }
 
 void check_base_pitches(Problems& out, const Catalogue& c) {
   const double sun_pitch = base_pitch(c.sun.data);
   const double planet_pitch = base_pitch(c.planet.data);
-  const double ring_pitch = base_pitch(c.ring.data);
   if (std::abs(sun_pitch / planet_pitch - 1.0) > base_pitch_tolerance)
-    out.add(planet_pointer + "/module_mm", "base pitches of sun and planet differ: ", sun_pitch, " and ", planet_pitch,
-            " mm; teeth of one pitch only can mesh");
+    out.add(planet_pointer + "/module_mm", "base pitches of ", c.has_ring() ? "sun and planet" : "both gears",
+            " differ: ", sun_pitch, " and ", planet_pitch, " mm; teeth of one pitch only can mesh");
+  if (!c.has_ring()) return;
+  const double ring_pitch = base_pitch(c.ring.data);
   if (c.ring.base_pitch == BasePitch::of_planet && std::abs(ring_pitch / planet_pitch - 1.0) > rounded_module)
     out.add(ring_pointer + "/module_mm", "is ", c.ring.data.module_mm,
             " mm; \"base_pitch\": \"of_planet\" makes up for rounding, not for a module that is ",
@@ -272,6 +275,22 @@ bool meshes_at_its_distance(Problems& out, const Stage& stage) {
   });
 }
 
+/// A stage has a ring; a pair has neither ring nor carrier.
+void check_members(Problems& out, const Stage& stage) {
+  const Catalogue& c = *stage.catalogue;
+  if (!stage.is_pair()) {
+    if (!c.has_ring()) out.add(ring_pointer, "is missing: the drawing of the ring; only a pair has none");
+    return;
+  }
+  const std::string alone = "must be left out: a pair has gear 1 (sun) and gear 2 (planet) alone";
+  if (c.has_ring()) out.add(ring_pointer, alone);
+  if (c.carrier.body || c.carrier.bearing || c.carrier.shaft)
+    out.add("/catalogue/carrier", alone, "; bearings are sun_bearing and planet_bearing");
+  if (c.stiffness.ring_planet_factor != 1.0)
+    out.add("/catalogue/mesh_stiffness/ring_planet_factor",
+            "must be left out: a pair has one mesh, which sun_planet_factor is for");
+}
+
 /// Reliefs within their flanks, and a load.
 void check_modified_flanks(Problems& out, const Stage& stage, const GearSet& set) {
   if (!design_torque_Nm(stage))
@@ -287,6 +306,7 @@ void check_modified_flanks(Problems& out, const Stage& stage, const GearSet& set
   const Catalogue& c = set.catalogue;
   check(sun_pointer, set.sun_planet, c.sun.data, none);
   check(planet_pointer, set.sun_planet, none, c.planet.data);
+  if (set.is_pair()) return;
   check(planet_pointer, set.ring_planet, c.planet.data, none);
   check(ring_pointer, set.ring_planet, none, c.ring.data);
 }
@@ -295,7 +315,7 @@ void check_modified_flanks(Problems& out, const Stage& stage, const GearSet& set
 /// @param evenly  no angles are given
 void check_room(Problems& out, const GearSet& set, bool evenly) {
   const Catalogue& c = set.catalogue;
-  if (planet_gap_mm(set) <= 0.0)
+  if (!set.is_pair() && planet_gap_mm(set) <= 0.0)
     out.add(evenly ? "/planets/count" : "/planets/angles_deg", "neighbouring planets overlap by ", -planet_gap_mm(set),
             " mm (tip radius ", set.planet.tip_radius_mm, " mm, centre distance ", set.centre_distance_mm, " mm)");
   const auto bore = [&](const ExternalGear& gear, const Tooth& tooth, const std::string& pointer) {
@@ -368,7 +388,9 @@ LoadedContacts loaded_contacts(const GearSet& set, double torque_Nm) {
     return LoadedContact(mesh, first, second, force_N);
   };
   const Catalogue& c = set.catalogue;
-  return {contact(set.sun_planet, c.sun.data, c.planet.data), contact(set.ring_planet, c.planet.data, c.ring.data)};
+  LoadedContacts contacts{contact(set.sun_planet, c.sun.data, c.planet.data), {}};
+  if (!set.is_pair()) contacts.ring_planet = contact(set.ring_planet, c.planet.data, c.ring.data);
+  return contacts;
 }
 
 GearSet make_gear_set(const Stage& stage) {
@@ -380,34 +402,39 @@ GearSet make_gear_set(const Stage& stage) {
     const Catalogue& c = set.catalogue;
     if (c.sun.data.is_modified() || c.planet.data.is_modified())
       set.sun_planet.loaded = std::make_shared<LoadedContact>(std::move(contacts.sun_planet));
-    if (c.planet.data.is_modified() || c.ring.data.is_modified())
-      set.ring_planet.loaded = std::make_shared<LoadedContact>(std::move(contacts.ring_planet));
+    if (contacts.ring_planet && (c.planet.data.is_modified() || c.ring.data.is_modified()))
+      set.ring_planet.loaded = std::make_shared<LoadedContact>(std::move(*contacts.ring_planet));
   }
   const int harmonics = set.catalogue.stiffness.harmonics;
   set.sun_planet_stiffness = fourier_series(set.sun_planet, harmonics);
-  set.ring_planet_stiffness = fourier_series(set.ring_planet, harmonics);
+  if (!set.is_pair()) set.ring_planet_stiffness = fourier_series(set.ring_planet, harmonics);
   return set;
 }
 
 std::vector<std::string> catalogue_problems(const Stage& stage) {
   Problems out(message_digits);
   const Catalogue& c = *stage.catalogue;
+  check_members(out, stage);
+  auto lines = out.take();
+  if (!lines.empty()) return lines;
   if (!each_tooth_exists(out, c)) return out.take();
   check_base_pitches(out, c);
   check_bearing_types(out, c);
-  auto lines = out.take();
+  lines = out.take();
   if (!lines.empty()) return lines;
   if (!meshes_at_its_distance(out, stage)) return out.take();
   GearSet set;
-  if (!tried(out, ring_pointer, [&] { set = geometry_of(stage); })) return out.take();
-  check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet", {});
-  check_pair(out, set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet", ring_misfit(set));
+  if (!tried(out, stage.is_pair() ? planet_pointer : ring_pointer, [&] { set = geometry_of(stage); }))
+    return out.take();
+  const bool pair = set.is_pair();
+  check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, sun_planet_words(pair), {});
+  if (!pair) check_pair(out, set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet", ring_misfit(set));
   check_tip(out, set.sun, sun_pointer);
   check_tip(out, set.planet, planet_pointer);
-  check_tip(out, set.ring, ring_pointer);
+  if (!pair) check_tip(out, set.ring, ring_pointer);
   check_root(out, set.sun, set.catalogue.sun.data, sun_pointer);
   check_root(out, set.planet, set.catalogue.planet.data, planet_pointer);
-  check_root(out, set.ring, set.catalogue.ring.data, ring_pointer);
+  if (!pair) check_root(out, set.ring, set.catalogue.ring.data, ring_pointer);
   check_room(out, set, stage.angles_deg.empty());
   lines = out.take();
   if (!lines.empty()) return lines;
@@ -419,7 +446,8 @@ std::vector<std::string> catalogue_problems(const Stage& stage) {
   const bool stiff = tried(out, "/catalogue/mesh_stiffness", [&] {
     // Radii of contact rise or fall along the path: flanks that hold its ends hold all of it.
     for (const MeshedPair* mesh : {&set.sun_planet, &set.ring_planet})
-      for (const double position : {0.0, mesh->contact_ratio()}) (void)mesh->pair_stiffness(position);
+      if (mesh == &set.sun_planet || !pair)
+        for (const double position : {0.0, mesh->contact_ratio()}) (void)mesh->pair_stiffness(position);
     (void)bodies(set);
   });
   if (stiff && c.is_modified()) check_modified_flanks(out, stage, set);
@@ -573,7 +601,7 @@ MemberTolerances member_tolerances(const GearSet& set) {
   };
   return {of(c.sun.accuracy_grade, set.sun, set.sun_planet.contact_ratio()),
           of(c.planet.accuracy_grade, set.planet, set.sun_planet.contact_ratio()),
-          of(c.ring.accuracy_grade, set.ring, set.ring_planet.contact_ratio())};
+          c.has_ring() ? of(c.ring.accuracy_grade, set.ring, set.ring_planet.contact_ratio()) : std::nullopt};
 }
 
 std::optional<double> error_amplitude_um(ErrorAmplitude from, const std::optional<Tolerances>& first,

@@ -1,4 +1,5 @@
-// A planetary gear set computed from its catalogue data: teeth, pairs, phases, stiffness, friction, masses, tolerances.
+// A planetary gear set, or a lone pair, computed from its catalogue data: teeth, pairs, phases, stiffness, friction,
+// masses, tolerances.
 //
 //   inv alpha_sp from sun and planet without backlash, unless the centre distance is given               [G-a0]
 //   tip shortening  k = x_s + x_p - y ,  y = (a - (z_s + z_p) m / 2) / m                                 [G-k-tip]
@@ -27,14 +28,16 @@ namespace epicyclic::gear {
 struct GearSet {
   Catalogue catalogue;
   std::vector<double> angles_deg;  ///< of the planets
-  Tooth sun, planet, ring;
+  Tooth sun, planet, ring;         ///< no ring of a pair
   double centre_distance_mm = 0;
   double tip_shortening = 0;           ///< k of sun and planet [-]
   double ring_module_mm = 0;           ///< as used
   double base_pitch_mismatch_mm = 0;   ///< p_b of the planet minus that of the ring as its data stand
-  MeshedPair sun_planet, ring_planet;  ///< driving member first: sun, planet
+  MeshedPair sun_planet, ring_planet;  ///< driving member first: sun, planet; no ring_planet of a pair
   double ring_mesh_lead = 0;           ///< lambda_sr [-]
   FourierSeries sun_planet_stiffness, ring_planet_stiffness;
+
+  [[nodiscard]] bool is_pair() const { return !catalogue.has_ring(); }
 };
 
 /// @param stage  planets and, if given, the centre distance; `stage.catalogue` is set
@@ -75,9 +78,10 @@ struct PlanetPhases {
 [[nodiscard]] ErrorCurve error_curve(const LoadedContact& contact,
                                      double tolerance = StiffnessOptions{}.table_tolerance);
 
-/// The contact of both meshes under the mean force of a torque on the sun, also of flanks without modification.
+/// The contact of the meshes under the mean force of a torque on the sun, also of flanks without modification.
 struct LoadedContacts {
-  LoadedContact sun_planet, ring_planet;
+  LoadedContact sun_planet;
+  std::optional<LoadedContact> ring_planet;  ///< none of a pair
 };
 [[nodiscard]] LoadedContacts loaded_contacts(const GearSet& set, double torque_Nm);
 

@@ -52,6 +52,9 @@ class Problems {
   std::vector<std::string> lines_;
 };
 
+/// The mesh of sun and planet: "the {} mesh".
+[[nodiscard]] inline std::string sun_planet_words(bool pair) { return pair ? "pair's" : "sun-planet"; }
+
 /// How much a warning matters; the first ones first.
 enum class Rank {
   impossible,  ///< no machine runs like this

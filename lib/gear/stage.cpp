@@ -345,7 +345,6 @@ void check_pair_members(Problems& out, const Stage& s) {
     if (!is_absent(*member)) out.add(pointer, "must be left out: a pair has gear 1 (sun) and gear 2 (planet) alone");
   if (s.ring_planet_mesh.stiffness_N_per_m != 0.0)
     out.add("/lumped/ring_planet_mesh", "must be left out: a pair has one mesh, sun_planet_mesh");
-  if (s.catalogue) out.add("/catalogue", "a pair is described by lumped values");
   if (s.planet.pin_error_tangential_um || s.planet.pin_error_radial_um)
     out.add("/lumped/planet", "pin errors are of planets in a carrier; a pair has error_mean_um of its mesh");
   if (s.driver != Driver::sun) out.add("/driver", "must be sun: gear 1 drives a pair");

@@ -393,21 +393,22 @@ std::vector<Warning> catalogue_warnings(const GearSet& set) {
   Warnings out;
   check_tooth(out, set.sun, sun_pointer);
   check_tooth(out, set.planet, planet_pointer);
-  check_tooth(out, set.ring, ring_pointer);
+  if (!set.is_pair()) check_tooth(out, set.ring, ring_pointer);
   // Wide meshes mostly come from tooth numbers that no centre distance suits.
-  const std::string remedy = ring_misfit(set);
-  check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet", remedy);
-  check_pair(out, set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet", remedy);
-  if (ring_shift_has_other_sign(set))
+  const std::string remedy = set.is_pair() ? std::string() : ring_misfit(set);
+  const std::string words = sun_planet_words(set.is_pair());
+  check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, words, remedy);
+  if (!set.is_pair()) check_pair(out, set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet", remedy);
+  if (!set.is_pair() && ring_shift_has_other_sign(set))
     out.add(Rank::doubtful, 1.0, ring_pointer + "/profile_shift", "sign", "is ", set.ring.profile_shift, " and leaves ",
             set.ring_planet.pair.backlash_mm(), " mm of backlash in the ring-planet mesh", remedy);
-  check_widths(out, set.sun_planet, sun_pointer, planet_pointer, "sun-planet");
-  check_widths(out, set.ring_planet, planet_pointer, ring_pointer, "ring-planet");
+  check_widths(out, set.sun_planet, sun_pointer, planet_pointer, words);
+  if (!set.is_pair()) check_widths(out, set.ring_planet, planet_pointer, ring_pointer, "ring-planet");
   if (set.catalogue.ring.base_pitch == BasePitch::of_planet && set.base_pitch_mismatch_mm != 0.0)
     out.add(Rank::note, 1.0, ring_pointer + "/module_mm", "module", "replaced: ", set.catalogue.ring.data.module_mm,
             " mm would give base pitches that differ by ", 1e3 * std::abs(set.base_pitch_mismatch_mm), " um; ",
             set.ring_module_mm, " mm is used");
-  if (planet_gap_mm(set) < planet_gap_usual * set.planet.module_mm)
+  if (!set.is_pair() && planet_gap_mm(set) < planet_gap_usual * set.planet.module_mm)
     out.add(Rank::note, 1.0, "/planets/count", "gap", "neighbouring planets leave a gap of ", planet_gap_mm(set),
             " mm only");
   check_density(out, set.catalogue.material.density_kg_per_m3);
@@ -428,9 +429,12 @@ std::vector<Warning> catalogue_warnings(const GearSet& set) {
 std::vector<Warning> catalogue_warnings(const GearSet& set, const Stage& stage) {
   Warnings out;
   check_iso(out, "/lumped/sun_planet_mesh", stage.sun_planet_mesh.stiffness_N_per_m, set.sun_planet);
-  check_iso(out, "/lumped/ring_planet_mesh", stage.ring_planet_mesh.stiffness_N_per_m, set.ring_planet);
+  if (!set.is_pair())
+    check_iso(out, "/lumped/ring_planet_mesh", stage.ring_planet_mesh.stiffness_N_per_m, set.ring_planet);
   check_mean(out, "/lumped/sun_planet_mesh", stage.sun_planet_mesh, set.sun_planet_stiffness, "sun_planet_factor");
-  check_mean(out, "/lumped/ring_planet_mesh", stage.ring_planet_mesh, set.ring_planet_stiffness, "ring_planet_factor");
+  if (!set.is_pair())
+    check_mean(out, "/lumped/ring_planet_mesh", stage.ring_planet_mesh, set.ring_planet_stiffness,
+               "ring_planet_factor");
   const Bodies of_drawings = bodies(set);
   const auto member = [&](const std::string& name, const auto& m, double radius_mm,
                           const std::optional<MassAndInertia>& body) {
@@ -438,8 +442,10 @@ std::vector<Warning> catalogue_warnings(const GearSet& set, const Stage& stage) 
   };
   member("sun", stage.sun, set.sun.base_radius_mm, of_drawings.sun);
   member("planet", stage.planet, set.planet.base_radius_mm, of_drawings.planet);
-  member("ring", stage.ring, set.ring.base_radius_mm, of_drawings.ring);
-  member("carrier", stage.carrier, set.centre_distance_mm, of_drawings.carrier);
+  if (!set.is_pair()) {
+    member("ring", stage.ring, set.ring.base_radius_mm, of_drawings.ring);
+    member("carrier", stage.carrier, set.centre_distance_mm, of_drawings.carrier);
+  }
   std::vector<Warning> all = catalogue_warnings(set);
   std::ranges::move(out.take(), std::back_inserter(all));
   return all;
@@ -472,8 +478,8 @@ std::vector<Warning> truncation_warnings(const GearSet& set, const Stage& stage)
               of_series, " N/m from peak to peak, in place of ", of_curve, " N/m of the whole curve, ",
               std::round(100.0 * (of_series / of_curve - 1.0)), " %; \"form\": \"curve\" takes all of it");
   };
-  check("sun-planet", stage.sun_planet_mesh, set.sun_planet, set.sun_planet_stiffness);
-  check("ring-planet", stage.ring_planet_mesh, set.ring_planet, set.ring_planet_stiffness);
+  check(sun_planet_words(set.is_pair()), stage.sun_planet_mesh, set.sun_planet, set.sun_planet_stiffness);
+  if (!set.is_pair()) check("ring-planet", stage.ring_planet_mesh, set.ring_planet, set.ring_planet_stiffness);
   return out.take();
 }
 
@@ -512,7 +518,7 @@ std::vector<Warning> warnings_at(const Stage& s, double mesh_frequency, const Ge
   const auto mesh = [&](const std::string& name, const Mesh& m, const LineOfAction& line, const MeshedPair* pair) {
     check_deflection(out, "/lumped/" + name + "_mesh/stiffness_N_per_m", "the mesh", load.force_N, m.stiffness_N_per_m,
                      module);
-    const std::string words = name == "sun_planet" ? "sun-planet" : "ring-planet";
+    const std::string words = name == "sun_planet" ? sun_planet_words(s.is_pair()) : "ring-planet";
     if (pair != nullptr)
       check_pressure(out, ehl_of(*pair, Lubrication{}), line, load, words);
     else if (m.friction.ehl && !m.friction.ehl->share.empty())

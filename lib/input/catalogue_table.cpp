@@ -90,7 +90,8 @@ void add_gear_data(Table<T>& t) {
 
 const Table<ExternalGear>& external_table(const std::string& name) {
   static const auto make = [](const std::string& member) {
-    Table<ExternalGear> t(member, "Drawing of the " + member + ".");
+    Table<ExternalGear> t(member, "Drawing of the " + member +
+                                      (member == "sun" ? ", or of gear 1 of a pair." : ", or of gear 2 of a pair."));
     add_gear_data(t);
     t.number("bore_mm", &ExternalGear::bore_mm, between(0, length_max_mm), "Diameter of the bore [mm].");
     t.number("body_radius_ratio", &ExternalGear::body_radius_ratio, between(1.01, 100),
@@ -106,7 +107,7 @@ const Table<ExternalGear>& external_table(const std::string& name) {
 
 const Table<RingGear>& ring_table() {
   static const auto table = [] {
-    Table<RingGear> t("ring", "Drawing of the ring.");
+    Table<RingGear> t("ring", "Drawing of the ring; a pair has none.");
     add_gear_data(t);
     t.number("outer_diameter_mm", &RingGear::outer_diameter_mm, length_bounds,
              "Outer diameter of the rim [mm]; gives mass and inertia.");
@@ -234,9 +235,10 @@ const Table<gear::StiffnessOptions>& stiffness_table() {
              "Factor on the computed stiffness of the sun-planet mesh [-].");
     t.number("ring_planet_factor", &StiffnessOptions::ring_planet_factor, factor,
              "Factor on the computed stiffness of the ring-planet mesh [-].");
-    t.number("design_torque_Nm", &StiffnessOptions::design_torque_Nm, between(1e-9, 1e9),
-             "Torque on the sun at which the contact of modified flanks is computed; that of the load if it is not "
-             "given [N m].");
+    t.number(
+        "design_torque_Nm", &StiffnessOptions::design_torque_Nm, between(1e-9, 1e9),
+        "Torque on the sun or on gear 1, at which the contact of modified flanks is computed; by default that of the "
+        "load [N m].");
     t.number("table_tolerance", &StiffnessOptions::table_tolerance, table_tolerance,
              "Error that the rows of the whole curve are made fine enough for, relative to the mean [-].");
     return t;
@@ -280,7 +282,11 @@ const Table<Catalogue>& catalogue_table() {
     t.object("sun_bearing", present(&Catalogue::sun_bearing), bearing_table());
     t.object("planet", &Catalogue::planet, external_table("planet")).required();
     t.object("planet_bearing", present(&Catalogue::planet_bearing), bearing_table());
-    t.object("ring", &Catalogue::ring, ring_table()).required();
+    t.object("ring",
+             table_detail::Access<Catalogue, RingGear>{
+                 [](Catalogue& c) -> RingGear& { return c.ring; },
+                 [](const Catalogue& c) -> const RingGear* { return c.has_ring() ? &c.ring : nullptr; }},
+             ring_table());
     t.object("carrier", &Catalogue::carrier, carrier_table());
     t.object("mesh_stiffness", &Catalogue::stiffness, stiffness_table());
     t.object("lubrication", present(&Catalogue::lubrication), lubrication_table());

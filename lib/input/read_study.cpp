@@ -26,7 +26,9 @@ class Judge {
       // On these, and on whole objects, many rules rest; the pressure angle follows from the members that mesh.
       const bool far = other == "/boundary" || other == "/planets" || other.empty() || other == "/lumped";
       const bool angle = pointer.ends_with("/operating_pressure_angle_deg") && pointer_within(other, "/lumped");
-      return far || angle || other == member;
+      // Both bearings of a pair are rigid or none is.
+      const bool bearing = pointer.ends_with("/planet/bearing_N_per_m") && other == "/lumped/sun";
+      return far || angle || bearing || other == member;
     });
   }
 

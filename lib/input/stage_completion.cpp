@@ -26,9 +26,16 @@ constexpr const char* smooth_word = "smooth";
 constexpr const char* balls_word = "balls";
 constexpr const char* rollers_word = "rollers";
 
+/// A bearing of a pair that nothing is given of.
+constexpr const char* rigid_word = "rigid";
+
+/// Is it a number, or rigid?
+bool is_stiffness(const json& value) { return value.is_number() || value == rigid_word; }
+
 /// Is it a number, a row of numbers, or one of the words that are computed? All that is computed is.
 bool is_of_computed_kind(const json& value) {
   return value.is_number() || value == smooth_word || value == balls_word || value == rollers_word ||
+         value == rigid_word ||
          (value.is_array() &&
           std::all_of(value.begin(), value.end(), [](const json& number) { return number.is_number(); }));
 }
@@ -108,6 +115,15 @@ std::string bearing_tag(const gear::SupportBearing& bearing) {
          " um";
 }
 
+/// Load rating of a bearing that is known by its designation.
+void fill_rating(Filler& member, const gear::BearingData& data) {
+  if (!data.dynamic_rating_kN) return;
+  Filler bearing = member.below("bearing");
+  const std::string origin = "bearing " + data.name + ", " + data.ratings;
+  bearing.fill("dynamic_load_rating_kN", *data.dynamic_rating_kN, origin);
+  bearing.fill("rolling_elements", data.kind == gear::RollingElements::balls ? balls_word : rollers_word, origin);
+}
+
 /// An error in two digits, rounded up, so that another machine's last digits do not show.
 double in_two_digits(double error) {
   if (!(error > 0.0)) return 0.0;
@@ -176,6 +192,9 @@ void fill_mesh(Filler mesh, const gear::MeshedPair& pair, const gear::FourierSer
   }
 }
 
+/// Origin of the bearings of a pair without any.
+constexpr const char* no_bearings = "no bearing of either gear in catalogue: they only rotate";
+
 /// All values from catalogue data, at their places in a stage, also those that the stage gives itself.
 json computed_values(const gear::Stage& read) {
   json stage = json::object();
@@ -183,7 +202,8 @@ json computed_values(const gear::Stage& read) {
   const gear::Catalogue& c = set.catalogue;
   const gear::Bodies bodies = gear::bodies(set);
   const gear::MemberTolerances tolerances = gear::member_tolerances(set);
-  Filler(stage["planets"]).fill("centre_distance_mm", set.centre_distance_mm, "[G-a0] sun and planet without backlash");
+  const std::string gears = set.is_pair() ? "both gears" : "sun and planet";
+  Filler(stage["planets"]).fill("centre_distance_mm", set.centre_distance_mm, "[G-a0] " + gears + " without backlash");
   Filler lumped(stage["lumped"]);
   Filler sun = lumped.below("sun");
   fill_gear(sun, set.sun);
@@ -198,6 +218,9 @@ json computed_values(const gear::Stage& read) {
       bearing.fill("ball_diameter_mm", data.ball_diameter_mm, origin);
       bearing.fill("contact_angle_deg", data.contact_angle_deg, "as in catalogue");
     }
+    if (set.is_pair()) fill_rating(sun, data);
+  } else if (set.is_pair() && !c.planet_bearing) {
+    sun.fill("support_N_per_m", rigid_word, no_bearings);
   }
   Filler planet = lumped.below("planet");
   fill_gear(planet, set.planet);
@@ -207,13 +230,13 @@ json computed_values(const gear::Stage& read) {
     const gear::BearingData data = *gear::bearing_data(*c.planet_bearing);
     planet.fill("bearing_N_per_m", data.stiffness(c.planet_bearing->approach_um * 1e-6),
                 bearing_tag(*c.planet_bearing) + "; " + data.origin);
-    if (data.dynamic_rating_kN) {
-      Filler bearing = planet.below("bearing");
-      const std::string origin = "bearing " + data.name + ", " + data.ratings;
-      bearing.fill("dynamic_load_rating_kN", *data.dynamic_rating_kN, origin);
-      bearing.fill("rolling_elements", data.kind == gear::RollingElements::balls ? balls_word : rollers_word, origin);
-    }
+    fill_rating(planet, data);
+  } else if (set.is_pair() && !c.sun_bearing) {
+    planet.fill("bearing_N_per_m", rigid_word, no_bearings);
   }
+  fill_mesh(lumped.below("sun_planet_mesh"), set.sun_planet, set.sun_planet_stiffness, c, tolerances.sun,
+            tolerances.planet);
+  if (set.is_pair()) return stage;
   Filler ring = lumped.below("ring");
   fill_gear(ring, set.ring);
   fill_body(ring, bodies.ring, set.ring.base_radius_mm, "[G-M] ring between mean of tip and root radius and rim");
@@ -229,8 +252,6 @@ json computed_values(const gear::Stage& read) {
     carrier.fill("torsional_support_N_per_m", torsion / (radius_m * radius_m),
                  "[G-GJ] output shaft, referred to the centre distance");
   }
-  fill_mesh(lumped.below("sun_planet_mesh"), set.sun_planet, set.sun_planet_stiffness, c, tolerances.sun,
-            tolerances.planet);
   fill_mesh(lumped.below("ring_planet_mesh"), set.ring_planet, set.ring_planet_stiffness, c, tolerances.planet,
             tolerances.ring);
   lumped.fill("ring_mesh_lead_1", set.ring_mesh_lead, "[G-1] from the paths of contact");
@@ -272,7 +293,8 @@ void complete(json& object, const json& computed, const std::string& pointer, st
       const auto same_kind = [&there, &value = value](bool (json::*is)() const noexcept) {
         return (*there.*is)() == (value.*is)();
       };
-      if (is_given(object, key) || !same_kind(&json::is_array) || !same_kind(&json::is_string)) continue;
+      const bool alike = is_stiffness(*there) && is_stiffness(value);
+      if (is_given(object, key) || !(alike || (same_kind(&json::is_array) && same_kind(&json::is_string)))) continue;
       if (differs(*there, value)) ignored.push_back({place, object["origin"][key].dump()});
     }
     object[key] = value;
@@ -378,7 +400,7 @@ void note_unused(const json& stage, const json& computed, const std::string& roo
     const auto place = json::json_pointer("/lumped") / member;
     if (!computed.contains(place / key) || !stage.contains(place) || !stage.at(place).is_object()) continue;
     const json& object = stage.at(place);
-    if (!is_given(object, key) || !object.at(key).is_number()) continue;
+    if (!is_given(object, key) || !object.at(key).is_number() || !computed.at(place / key).is_number()) continue;
     const json origin = object.value("origin", json());
     const std::string text = origin.is_object() && origin.contains(key) && origin.at(key).is_string()
                                  ? origin.at(key).get<std::string>()
@@ -411,6 +433,7 @@ Completion complete_stage(json& stage, const std::string& root, ReadContext& con
     if (auto with_load = readable_part(stated)) read = std::move(with_load);
   }
   if (!read) return {.complete = false, .computed = {}};
+  if (read->is_pair()) read->planet_count = 1;
   const auto problems = gear::catalogue_problems(*read);
   for (const std::string& problem : problems) {
     const auto colon = problem.find(": ");
@@ -422,6 +445,7 @@ Completion complete_stage(json& stage, const std::string& root, ReadContext& con
   json none = json::object();
   const auto lumped = stage.find("lumped");
   for (const char* key : {"sun_planet_mesh", "ring_planet_mesh"}) {
+    if (!computed["lumped"].contains(key)) continue;
     const bool there =
         lumped != stage.end() && lumped->is_object() && lumped->contains(key) && (*lumped)[key].is_object();
     choose_forms(there ? (*lumped)[key] : none, computed["lumped"][key]);

@@ -56,13 +56,15 @@ void check_assembly(const Drawing& d) {
 
 void check(const Drawing& d) {
   const auto refuse = [](const std::string& what) { throw InputError("init: " + what); };
-  for (const int z : {d.sun_teeth, d.planet_teeth, d.ring()})
+  for (const int z : {d.sun_teeth, d.planet_teeth, d.pair ? d.sun_teeth : d.ring()})
     if (z < 5 || z > 1000) refuse(fmt::format("{} teeth are none of a gear; from 5 to 1000", z));
-  if (!d.angles_deg.empty() && d.angles_deg.size() != static_cast<std::size_t>(d.planets))
-    refuse(fmt::format("{} angles of {} planets", d.angles_deg.size(), d.planets));
-  if (d.planets < gear::planets_min || d.planets > gear::planets_max)
-    refuse(fmt::format("{} planets; from {} to {}", d.planets, gear::planets_min, gear::planets_max));
-  check_assembly(d);
+  if (!d.pair) {
+    if (!d.angles_deg.empty() && d.angles_deg.size() != static_cast<std::size_t>(d.planets))
+      refuse(fmt::format("{} angles of {} planets", d.angles_deg.size(), d.planets));
+    if (d.planets < gear::planets_min || d.planets > gear::planets_max)
+      refuse(fmt::format("{} planets; from {} to {}", d.planets, gear::planets_min, gear::planets_max));
+    check_assembly(d);
+  }
   const auto positive = [&](const char* what, double x, double most) {
     if (!(x > 0.0 && x <= most)) refuse(fmt::format("{} of {}; must be above 0, at most {}", what, x, most));
   };
@@ -137,6 +139,67 @@ ordered_json origins_of_gear(const Drawing& d, const char* more_key, const std::
           {more_key, more}};
 }
 
+/// A gear with the bore of a hollow shaft.
+ordered_json gear_on_shaft(const Drawing& d, int teeth, double shift) {
+  ordered_json gear = gear_of(d, teeth, shift);
+  gear["bore_mm"] = neat(0.35 * root_mm(d, teeth, shift));
+  gear["origin"] =
+      origins_of_gear(d, "bore_mm", "estimate: hollow shaft, a third of the root circle; 0 of a solid one");
+  return gear;
+}
+
+ordered_json whole_curve() {
+  return {{"form", "curve"}, {"origin", "choice: the whole curve; a few harmonics lose of its jumps"}};
+}
+
+ordered_json lubrication() {
+  return {{"viscosity_mPas", 15}, {"origin", "estimate: ISO VG 150 at 85 degrees Celsius; 5 to 50 in service"}};
+}
+
+std::string damping(const char* of) {
+  return std::string("estimate: 0.02 to 0.1, usual for ") + of +
+         "; no drawing states it, and the response depends on it";
+}
+
+ordered_json mesh_of(const Drawing& d) {
+  const double centre = 0.5 * d.module_mm * (d.sun_teeth + d.planet_teeth);
+  return {{"damping_ratio", 0.05},
+          {"backlash_half_um", neat(0.5 * 2.0 / 3.0 * (60.0 + 0.5 * centre + 30.0 * d.module_mm))},
+          {"origin",
+           {{"damping_ratio", damping("steel gears")},
+            {"backlash_half_um",
+             "estimate: half of the least that ISO/TR 10064-2 recommends at this module and centre distance"}}}};
+}
+
+ordered_json load_of(const Drawing& d) {
+  const std::string member = d.pair ? "gear 1" : "the sun";
+  return {{"torque_Nm", torque_Nm(d)},
+          {"origin", d.torque_Nm ? "source: rating, on " + member
+                                 : "estimate: on " + member + ", 60 N/mm2 times module and face width" +
+                                       (d.pair ? "; give yours" : " on each mesh; give yours")}};
+}
+
+ordered_json starter_pair(const Drawing& d) {
+  ordered_json stage;
+  stage["name"] = d.name;
+  stage["note"] =
+      "A pair to begin with: gear 1 (sun) drives gear 2 (planet), and both only rotate. What has the origin "
+      "\"estimate\" stands on no drawing: values that machines have, with the reason and the range; replace what you "
+      "know. `epicyclic keys WORD` explains a key.";
+  stage["boundary"] = "pair";
+  stage["load"] = load_of(d);
+  stage["catalogue"] = {{"sun", gear_on_shaft(d, d.sun_teeth, d.profile_shift[0])},
+                        {"planet", gear_on_shaft(d, d.planet_teeth, d.profile_shift[1])},
+                        {"mesh_stiffness", whole_curve()},
+                        {"lubrication", lubrication()}};
+  const std::string held =
+      "choice: stiff shafts and bearings, gears that only rotate; take this key out where /stage/catalogue/";
+  stage["lumped"] = {{"sun", {{"support_N_per_m", "rigid"}, {"origin", held + "sun_bearing is to give it"}}},
+                     {"planet", {{"bearing_N_per_m", "rigid"}, {"origin", held + "planet_bearing is to give it"}}},
+                     {"sun_planet_mesh", mesh_of(d)}};
+  return stage;
+}
+
 }  // namespace
 
 double torque_Nm(const Drawing& d) {
@@ -146,6 +209,7 @@ double torque_Nm(const Drawing& d) {
 }
 
 std::vector<double> assembly_angles(const Drawing& d) {
+  if (d.pair) return {};
   const int sum = d.sun_teeth + d.ring();
   if (sum % d.planets == 0 || !d.angles_deg.empty()) return {};
   std::vector<double> all;
@@ -155,21 +219,16 @@ std::vector<double> assembly_angles(const Drawing& d) {
 
 ordered_json starter_stage(const Drawing& d) {
   check(d);
+  if (d.pair) return starter_pair(d);
   const double m = d.module_mm;
   const double centre = 0.5 * m * (d.sun_teeth + d.planet_teeth);
   const double sun_root = root_mm(d, d.sun_teeth, d.profile_shift[0]);
   const double planet_root = root_mm(d, d.planet_teeth, d.profile_shift[1]);
-  const double sun_bore = neat(0.35 * sun_root);
   const double planet_bore = std::max(neat(planet_root - 6.0 * m), neat(0.3 * planet_root));
   const double ring_outer = neat(m * (d.ring() + 2.0 * (addendum + clearance) + 2.0 * d.profile_shift[2]) + 8.0 * m);
   const double pin = neat(0.6 * planet_bore);
-  const double backlash_um = neat(0.5 * 2.0 / 3.0 * (60.0 + 0.5 * centre + 30.0 * m));
-  const std::string backlash =
-      fmt::format("estimate: half of the least that ISO/TR 10064-2 recommends at this module and centre distance");
 
-  ordered_json sun = gear_of(d, d.sun_teeth, d.profile_shift[0]);
-  sun["bore_mm"] = sun_bore;
-  sun["origin"] = origins_of_gear(d, "bore_mm", "estimate: hollow shaft, a third of the root circle; 0 of a solid one");
+  const ordered_json sun = gear_on_shaft(d, d.sun_teeth, d.profile_shift[0]);
   ordered_json planet = gear_of(d, d.planet_teeth, d.profile_shift[1]);
   planet["bore_mm"] = planet_bore;
   planet["origin"] = origins_of_gear(d, "bore_mm",
@@ -202,29 +261,20 @@ ordered_json starter_stage(const Drawing& d) {
       "machines have, with the reason and the range; replace what you know. `epicyclic keys WORD` explains a key.";
   stage["boundary"] = "fixed_ring";
   stage["planets"] = planets;
-  stage["load"] = {
-      {"torque_Nm", torque_Nm(d)},
-      {"origin", d.torque_Nm ? "source: rating, on the sun"
-                             : "estimate: on the sun, 60 N/mm2 times module and face width on each mesh; give yours"}};
-  stage["catalogue"] = {
-      {"sun", sun},
-      {"planet", planet},
-      {"ring", ring},
-      {"carrier",
-       {{"body",
-         {{"plate_thickness_mm", neat(0.3 * d.width_mm)},
-          {"outer_diameter_mm", neat(2.0 * centre + 1.8 * pin)},
-          {"inner_diameter_mm", neat(std::max(sun_root, 2.0 * centre - 2.2 * pin))},
-          {"pin_diameter_mm", pin},
-          {"pin_length_mm", neat(1.1 * d.width_mm)},
-          {"origin", "estimate: two plates about the pins, pins of 0.6 of the planets' bores"}}}}},
-      {"mesh_stiffness", {{"form", "curve"}, {"origin", "choice: the whole curve; a few harmonics lose of its jumps"}}},
-      {"lubrication",
-       {{"viscosity_mPas", 15}, {"origin", "estimate: ISO VG 150 at 85 degrees Celsius; 5 to 50 in service"}}}};
-  const auto damping = [](const char* of) {
-    return std::string("estimate: 0.02 to 0.1, usual for ") + of +
-           "; no drawing states it, and the response depends on it";
-  };
+  stage["load"] = load_of(d);
+  stage["catalogue"] = {{"sun", sun},
+                        {"planet", planet},
+                        {"ring", ring},
+                        {"carrier",
+                         {{"body",
+                           {{"plate_thickness_mm", neat(0.3 * d.width_mm)},
+                            {"outer_diameter_mm", neat(2.0 * centre + 1.8 * pin)},
+                            {"inner_diameter_mm", neat(std::max(sun_root, 2.0 * centre - 2.2 * pin))},
+                            {"pin_diameter_mm", pin},
+                            {"pin_length_mm", neat(1.1 * d.width_mm)},
+                            {"origin", "estimate: two plates about the pins, pins of 0.6 of the planets' bores"}}}}},
+                        {"mesh_stiffness", whole_curve()},
+                        {"lubrication", lubrication()}};
   // Supports as parts of the mesh stiffness, so that the modes of small and large stages are alike.
   constexpr double mesh_N_per_m_per_mm = 2e7;
   const double mesh = mesh_N_per_m_per_mm * d.width_mm;
@@ -282,14 +332,8 @@ ordered_json starter_stage(const Drawing& d) {
         {"support_damping_ratio", 0.05},
         {"origin",
          {{"bearing_N_per_m", planet_bearing.origin}, {"support_damping_ratio", damping("rolling bearings")}}}}},
-      {"sun_planet_mesh",
-       {{"damping_ratio", 0.05},
-        {"backlash_half_um", backlash_um},
-        {"origin", {{"damping_ratio", damping("steel gears")}, {"backlash_half_um", backlash}}}}},
-      {"ring_planet_mesh",
-       {{"damping_ratio", 0.05},
-        {"backlash_half_um", backlash_um},
-        {"origin", {{"damping_ratio", damping("steel gears")}, {"backlash_half_um", backlash}}}}}};
+      {"sun_planet_mesh", mesh_of(d)},
+      {"ring_planet_mesh", mesh_of(d)}};
   return stage;
 }
 

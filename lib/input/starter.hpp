@@ -24,6 +24,7 @@ namespace epicyclic::input {
 /// The values of the drawing, and the keys that it does not give: `assumed`.
 struct Drawing {
   std::string name = "stage";
+  bool pair = false;  ///< of a lone pair: gear 1 in the place of the sun, gear 2 in that of the planet; one "planet"
   int sun_teeth = 21, planet_teeth = 28;
   std::optional<int> ring_teeth{};  ///< none: z_s + 2 z_p
   double module_mm = 3;
@@ -46,7 +47,8 @@ struct Drawing {
 /// given.
 [[nodiscard]] std::vector<double> assembly_angles(const Drawing& drawing);
 
-/// The stage as a file: ring held, carrier free. Planets are spaced evenly, or as nearly so as they can be assembled.
+/// The stage as a file: ring held, carrier free; planets are spaced evenly, or as nearly so as they can be assembled. Or
+/// the pair, whose gears only rotate.
 /// @throws InputError for impossible gears
 [[nodiscard]] nlohmann::ordered_json starter_stage(const Drawing& drawing);
 

@@ -506,7 +506,8 @@ const Table<Stage>& planets_table() {
     t.numbers("angles_deg", &Stage::angles_deg, between(-largest_angle_deg, largest_angle_deg), 1, gear::planets_max,
               "Angle of each planet [deg]; equally spaced from 0 if not given.");
     t.number("centre_distance_mm", &Stage::centre_distance_mm, length,
-             "Distance between the axes of sun and planet [mm]; needed for time integration.");
+             "Distance between the axes of sun and planet, or of the gears of a pair [mm]; needed for time integration "
+             "of a stage.");
     return t;
   }();
   return table;
@@ -747,7 +748,7 @@ ordered_json catalogue_stage_schema(ordered_json stage) {
       for (auto& [key, property] : properties->items()) relax(property);
   };
   relax(stage["properties"]["lumped"]);
-  stage["required"] = {"planets", "catalogue"};
+  stage["required"] = {"catalogue"};
   stage["title"] = "stage of catalogue data";
   return stage;
 }
@@ -773,7 +774,12 @@ std::string schema_text() {
   ordered_json stage = stage_table().schema();
   ordered_json catalogue_stage = catalogue_stage_schema(stage);
   // The keys of lumped_table() that are not required of a pair.
-  stage["if"] = {{"properties", {{"boundary", {{"const", "pair"}}}}}, {"required", {"boundary"}}};
+  const ordered_json of_pair = {{"properties", {{"boundary", {{"const", "pair"}}}}}, {"required", {"boundary"}}};
+  stage["if"] = of_pair;
+  catalogue_stage["if"] = of_pair;
+  catalogue_stage["else"] = {
+      {"required", {"planets"}},
+      {"properties", {{"planets", {{"required", {"count"}}}}, {"catalogue", {{"required", {"ring"}}}}}}};
   stage["else"] = {
       {"required", {"planets"}},
       {"properties",

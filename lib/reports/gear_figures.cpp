@@ -77,6 +77,7 @@ Curve repeated(const std::vector<double>& phase, const std::vector<double>& valu
   return curve;
 }
 
+/// @param name, index  of the mesh; empty: a pair has one
 GearFigure stiffness_figure(const fs::path& folder, std::string_view stem, const gear::Stage& stage,
                             const gear::MeshedPair& mesh, const gear::FourierSeries& series, std::string_view name,
                             std::string_view index) {
@@ -96,10 +97,12 @@ GearFigure stiffness_figure(const fs::path& folder, std::string_view stem, const
   sketch.add(energy, figures::solid(blue), "energy method");
   sketch.add(fourier, figures::solid(red), fmt::format("Fourier, {} harmonics", series.cosine.size()));
   sketch.entry(figures::dashed(dark_grey, 1.5, "(10,7)"), "mean");
-  return draw(sketch, folder,
-              {titled(stage, fmt::format("{} mesh stiffness", name)), std::string(phase_label),
-               fmt::format("Mesh stiffness  k_{{{}}}  [10^9 N/m]", index)},
-              {0.0, periods_shown}, range_of_y({&energy, &fourier}));
+  return draw(
+      sketch, folder,
+      {titled(stage, name.empty() ? "mesh stiffness" : fmt::format("{} mesh stiffness", name)),
+       std::string(phase_label),
+       index.empty() ? "Mesh stiffness  k  [10^9 N/m]" : fmt::format("Mesh stiffness  k_{{{}}}  [10^9 N/m]", index)},
+      {0.0, periods_shown}, range_of_y({&energy, &fourier}));
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -116,8 +119,8 @@ GearFigure load_sharing_figure(const fs::path& folder, const gear::Stage& stage,
     sketch.add(curve, recording, title);
     longest = std::max(longest, mesh.contact_ratio());
   };
-  add(set.sun_planet, figures::solid(blue), "sun-planet");
-  add(set.ring_planet, figures::dashed(red, 2, "(14,6)"), "ring-planet");
+  add(set.sun_planet, figures::solid(blue), set.is_pair() ? "" : "sun-planet");
+  if (!set.is_pair()) add(set.ring_planet, figures::dashed(red, 2, "(14,6)"), "ring-planet");
   return draw(sketch, folder,
               {titled(stage, "load sharing of tooth pairs"), "Distance from the start of contact  [base pitches]",
                "Share of a tooth pair in the mesh force  L"},
@@ -169,10 +172,17 @@ void add_zero_line(figures::Sketch& sketch, const figures::FigureRange& x) {
   sketch.add(Curve{{x.low, 0.0}, {x.high, 0.0}}, figures::solid(light_grey, 1));
 }
 
+/// @param ring  empty for a pair, whose curve needs no name
+void add_curves(figures::Sketch& sketch, const Curve& sun, const Curve& ring) {
+  sketch.add(sun, figures::solid(blue), ring.empty() ? "" : "sun-planet");
+  if (!ring.empty()) sketch.add(ring, figures::dashed(red, 2, "(14,6)"), "ring-planet");
+}
+
+/// @param ring  none of a pair
 GearFigure friction_figure(const fs::path& folder, const gear::Stage& stage, const LubricatedMesh& sun,
-                           const LubricatedMesh& ring, const gear::MeshLoad& load) {
+                           const std::optional<LubricatedMesh>& ring, const gear::MeshLoad& load) {
   const Curve sun_curve = friction_along_path(sun, load);
-  const Curve ring_curve = friction_along_path(ring, load);
+  const Curve ring_curve = ring ? friction_along_path(*ring, load) : Curve();
   figures::FigureRange x;
   x.include(0.0);  // the pitch point is shown even if no path reaches it
   for (const Curve* curve : {&sun_curve, &ring_curve})
@@ -180,11 +190,9 @@ GearFigure friction_figure(const fs::path& folder, const gear::Stage& stage, con
   x = x.widened(figures::figure_margin);
   figures::Sketch sketch("friction");
   add_zero_line(sketch, x);
-  sketch.add(sun_curve, figures::solid(blue), "sun-planet");
-  sketch.add(ring_curve, figures::dashed(red, 2, "(14,6)"), "ring-planet");
-  const Curve ends{sun_curve.front(), sun_curve.back(), ring_curve.front(), ring_curve.back()};
-  sketch.add(Curve(ends.begin(), ends.begin() + 2), figures::dots(blue, 0.9));
-  sketch.add(Curve(ends.begin() + 2, ends.end()), figures::dots(red, 0.9));
+  add_curves(sketch, sun_curve, ring_curve);
+  sketch.add(Curve{sun_curve.front(), sun_curve.back()}, figures::dots(blue, 0.9));
+  if (ring) sketch.add(Curve{ring_curve.front(), ring_curve.back()}, figures::dots(red, 0.9));
   return draw(
       sketch, folder,
       {titled(stage, "tooth friction at " + at_load(load)),
@@ -193,16 +201,16 @@ GearFigure friction_figure(const fs::path& folder, const gear::Stage& stage, con
 }
 
 GearFigure friction_ratio_figure(const fs::path& folder, const gear::Stage& stage, const LubricatedMesh& sun,
-                                 const LubricatedMesh& ring, const gear::MeshLoad& load) {
+                                 const std::optional<LubricatedMesh>& ring, const gear::MeshLoad& load) {
   const Curve sun_curve = force_ratio(sun, load);
-  const Curve ring_curve = force_ratio(ring, load);
+  const Curve ring_curve = ring ? force_ratio(*ring, load) : Curve();
   const figures::FigureRange x{0.0, periods_shown};
   figures::Sketch sketch("friction_ratio");
   add_zero_line(sketch, x);
-  sketch.add(sun_curve, figures::solid(blue), "sun-planet");
-  sketch.add(ring_curve, figures::dashed(red, 2, "(14,6)"), "ring-planet");
+  add_curves(sketch, sun_curve, ring_curve);
   return draw(sketch, folder,
-              {titled(stage, "friction force at " + at_load(load)), fmt::format("{} of each mesh", phase_label),
+              {titled(stage, "friction force at " + at_load(load)),
+               ring ? fmt::format("{} of each mesh", phase_label) : std::string(phase_label),
                "Friction force over mesh force  A = Σ L_j f_j"},
               x, range_of_y({&sun_curve, &ring_curve}));
 }
@@ -211,6 +219,7 @@ GearFigure friction_ratio_figure(const fs::path& folder, const gear::Stage& stag
 // Static transmission error
 
 std::string titled_error(const gear::Stage& stage, const TransmissionErrorTable& table) {
+  if (stage.is_pair()) return titled(stage, "static transmission error");
   return titled(stage,
                 fmt::format("static transmission error, {} mesh", table.mesh == "sp" ? "sun-planet" : "ring-planet"));
 }
@@ -236,9 +245,11 @@ GearFigure error_over_torque(const fs::path& folder, const TransmissionErrorTabl
       "harmonic 3");
   figures::FigureRange range = y.widened(figures::figure_margin);
   range.low = 0.0;
-  return draw(sketch, folder,
-              {titled_error(stage, table), "Torque on the sun  T_D  [N m]", "Static transmission error  [μm]"},
-              {0.0, table.rows.back().torque_Nm}, range, {{table.design_torque_Nm, "design torque"}});
+  return draw(
+      sketch, folder,
+      {titled_error(stage, table), stage.is_pair() ? "Torque on gear 1  T_1  [N m]" : "Torque on the sun  T_D  [N m]",
+       "Static transmission error  [μm]"},
+      {0.0, table.rows.back().torque_Nm}, range, {{table.design_torque_Nm, "design torque"}});
 }
 
 GearFigure error_over_phase(const fs::path& folder, const TransmissionErrorTable& table, const gear::Stage& stage) {
@@ -274,15 +285,15 @@ struct NamedBearing {
   gear::BearingData data;
 };
 
-std::vector<NamedBearing> bearings_of(const gear::Catalogue& catalogue) {
+std::vector<NamedBearing> bearings_of(const gear::Catalogue& catalogue, bool pair) {
   std::vector<NamedBearing> bearings;
   const auto add = [&](std::string_view member, const std::optional<gear::SupportBearing>& support) {
     if (!support) return;
     if (const auto data = gear::bearing_data(*support))
       bearings.push_back({fmt::format("{}, {}", member, figures::verbatim_text(data->name)), *support, *data});
   };
-  add("sun", catalogue.sun_bearing);
-  add("planet", catalogue.planet_bearing);
+  add(pair ? "gear 1" : "sun", catalogue.sun_bearing);
+  add(pair ? "gear 2" : "planet", catalogue.planet_bearing);
   add("carrier", catalogue.carrier.bearing);
   return bearings;
 }
@@ -552,9 +563,11 @@ GearFigure teeth_figure(const fs::path& folder, const gear::Stage& stage, const 
   sketch.entry(base_style(dark_grey), "base circles");
   sketch.entry(figures::solid(green, path_width), "path of contact");
 
+  const double degrees = pair.pressure_angle * 180.0 / pi;
   const std::string title =
-      fmt::format("{}-{} mesh,  α_{{{}}} = {:.2f}°,  ε_{{{}}} = {:.3f}", names.driving, names.driven, names.index,
-                  pair.pressure_angle * 180.0 / pi, names.index, pair.contact_ratio());
+      names.index.empty() ? fmt::format("teeth in mesh,  α_w = {:.2f}°,  ε_α = {:.3f}", degrees, pair.contact_ratio())
+                          : fmt::format("{}-{} mesh,  α_{{{}}} = {:.2f}°,  ε_{{{}}} = {:.3f}", names.driving,
+                                        names.driven, names.index, degrees, names.index, pair.contact_ratio());
   fix_frame(sketch, {0.075, 0.975, 0.12});
   // Long lines are cut at the frame, and nothing filled hides the tics.
   sketch.command("set clip two\nset tics front");
@@ -639,7 +652,9 @@ void add_frequency_axis(figures::Sketch& sketch, double frequency_max, double om
   const double unit_kHz = omega_sn / (2.0 * pi) * 1e-3;
   sketch.command("set ytics nomirror");
   sketch.command(fmt::format("set y2range [0:{}]", figures::figure_number(frequency_max * unit_kHz)));
-  sketch.command("set y2tics\nset my2tics 5\nset y2label 'Frequency  [kHz]'\nset rmargin screen 0.915");
+  constexpr double with_decimals = 5.0;  // tics below need more room
+  sketch.command(fmt::format("set y2tics\nset my2tics 5\nset y2label 'Frequency  [kHz]'\nset rmargin screen {}",
+                             frequency_max * unit_kHz < with_decimals ? 0.9 : 0.915));
 }
 
 GearFigure campbell_figure(const fs::path& folder, const gear::Stage& stage, const std::vector<model::Mode>& modes,
@@ -674,7 +689,7 @@ GearFigure campbell_figure(const fs::path& folder, const gear::Stage& stage, con
 
 /// Radii of the circles of the members, in centre distances.
 struct SchematicRadii {
-  double sun, planet, ring;                 // as drawn
+  double sun, planet, ring;                 // as drawn; in place of the ring's half of the width of a pair
   double sun_base, planet_base, ring_base;  // of u = r theta
 };
 
@@ -683,6 +698,12 @@ SchematicRadii schematic_radii(const gear::Stage& stage) {
   const auto& s = stage.sun.base_radius_mm;
   const auto& p = stage.planet.base_radius_mm;
   const auto& r = stage.ring.base_radius_mm;
+  if (stage.is_pair()) {
+    const double a = s && p ? stage.centre_distance_mm.value_or(*s + *p) : 0.0;
+    if (a == 0.0) return {0.5, 0.5, 1.0, 0.5, 0.5, 1.0};
+    const double first = *s / (*s + *p);
+    return {first, 1.0 - first, 1.0, *s / a, *p / a, 1.0};
+  }
   if (!s || !p || !r || !stage.centre_distance_mm) return {0.5, 0.5, 1.5, 0.5, 0.5, 1.5};
   const double a = *stage.centre_distance_mm;
   const double sun = *s / (*s + *p);  // operating pitch circles touch
@@ -710,7 +731,8 @@ Eigen::VectorXd drawn_shape(const model::Mode& mode, std::size_t planets) {
 /// The circles and marks of all panels, one list per kind of member.
 class ShapeDrawing {
  public:
-  explicit ShapeDrawing(const gear::Stage& stage) : radii_(schematic_radii(stage)), angles_(stage.planet_angles_deg()) {
+  explicit ShapeDrawing(const gear::Stage& stage)
+      : pair_(stage.is_pair()), radii_(schematic_radii(stage)), angles_(stage.planet_angles_deg()) {
     for (double& angle : angles_) angle *= pi / 180.0;
   }
 
@@ -727,6 +749,13 @@ class ShapeDrawing {
     const auto displacement = [&](std::size_t slot_x, std::size_t slot_y, std::size_t slot_u, double base) {
       return Displacement{at(slot_x), at(slot_y), at(slot_u) / base};
     };
+    if (pair_) {
+      const double axis = x - (radii_.planet - radii_.sun + 1.0) / 2.0;  // the pair in the middle
+      place(axis + 1.0, y, radii_.planet, pi,
+            displacement(Slots::x_p(0), Slots::y_p(0), Slots::w_p(0), radii_.planet_base), planet_member);
+      place(axis, y, radii_.sun, 0.0, displacement(Slots::x_s, Slots::y_s, Slots::w_s, radii_.sun_base), sun_member);
+      return;
+    }
     const Displacement none{};
     const Displacement carrier = displacement(Slots::x_c(n), Slots::y_c(n), Slots::u_c(Layout::full, n), 1.0);
     carrier_of(x, y, none, rest_marks_);
@@ -746,10 +775,16 @@ class ShapeDrawing {
     sketch.add(rest_circles_, circles(light_grey, 1));
     sketch.add(rest_marks_, figures::solid(light_grey, 1));
     for (const std::size_t k : {carrier_member, ring_member, planet_member, sun_member}) {
+      if (circles_[k].empty() && marks_[k].empty()) continue;
       sketch.add(circles_[k], circles(colours[k], 1.6));
       sketch.add(marks_[k], figures::solid(colours[k], 1.8));
     }
-    for (std::size_t k = 0; k < names.size(); ++k) sketch.entry(figures::solid(colours[k], 2), names[k]);
+    static constexpr std::array<std::string_view, 2> names_of_pair{"gear 1", "gear 2"};
+    if (pair_)
+      for (std::size_t k = 0; k < names_of_pair.size(); ++k)
+        sketch.entry(figures::solid(colours[k], 2), names_of_pair[k]);
+    else
+      for (std::size_t k = 0; k < names.size(); ++k) sketch.entry(figures::solid(colours[k], 2), names[k]);
     sketch.entry(figures::solid(light_grey, 1), "at rest");
   }
 
@@ -784,6 +819,7 @@ class ShapeDrawing {
     for (const double angle : angles_) mark(marks, x + m.x, y + m.y, 0.0, 1.0, angle + m.angle);
   }
 
+  bool pair_;
   SchematicRadii radii_;
   std::vector<double> angles_;
   std::vector<Row3> rest_circles_;
@@ -804,7 +840,8 @@ std::array<std::string, 2> panel_titles(const model::Mode& mode, double omega_sn
 /// All of them: the figure is as high as they need.
 GearFigure mode_shapes_figure(const fs::path& folder, const gear::Stage& stage, const std::vector<model::Mode>& modes,
                               double omega_sn) {
-  const std::size_t columns = modes.size() > 12 ? 6 : 4;
+  constexpr std::size_t columns_of_pair = 3;
+  const std::size_t columns = stage.is_pair() ? std::min(modes.size(), columns_of_pair) : modes.size() > 12 ? 6 : 4;
   const std::size_t lines = (modes.size() + columns - 1) / columns;
   ShapeDrawing drawing(stage);
   // In radii of the ring, which moves by no more than a sixth of it.
@@ -873,25 +910,32 @@ MeshDrawing mesh_drawing(const gear::Pair& pair, double phase, double reach_mm) 
 std::vector<GearFigure> draw_gear_set_figures(const fs::path& folder, const gear::GearSet& set,
                                               const gear::MeshLoad& load, const gear::Stage& stage) {
   std::vector<GearFigure> figures;
-  figures.push_back(
-      stiffness_figure(folder, "stiffness_sp", stage, set.sun_planet, set.sun_planet_stiffness, "sun-planet", "sp"));
-  figures.push_back(
-      stiffness_figure(folder, "stiffness_rp", stage, set.ring_planet, set.ring_planet_stiffness, "ring-planet", "rp"));
+  const bool pair = set.is_pair();
+  figures.push_back(stiffness_figure(folder, "stiffness_sp", stage, set.sun_planet, set.sun_planet_stiffness,
+                                     pair ? "" : "sun-planet", pair ? "" : "sp"));
+  if (!pair)
+    figures.push_back(stiffness_figure(folder, "stiffness_rp", stage, set.ring_planet, set.ring_planet_stiffness,
+                                       "ring-planet", "rp"));
   figures.push_back(load_sharing_figure(folder, stage, set));
 
   const std::optional<gear::Lubrication>& lubrication = set.catalogue.lubrication;
   const auto sun = lubricated_mesh(stage.sun_planet_mesh, set.sun_planet, lubrication);
-  const auto ring = lubricated_mesh(stage.ring_planet_mesh, set.ring_planet, lubrication);
-  if (sun && ring) {
-    figures.push_back(friction_figure(folder, stage, *sun, *ring, load));
-    figures.push_back(friction_ratio_figure(folder, stage, *sun, *ring, load));
+  const auto ring = pair ? std::nullopt : lubricated_mesh(stage.ring_planet_mesh, set.ring_planet, lubrication);
+  if (sun && (pair || ring)) {
+    figures.push_back(friction_figure(folder, stage, *sun, ring, load));
+    figures.push_back(friction_ratio_figure(folder, stage, *sun, ring, load));
   }
-  const std::vector<NamedBearing> bearings = bearings_of(set.catalogue);
+  const std::vector<NamedBearing> bearings = bearings_of(set.catalogue, pair);
   if (!bearings.empty()) {
     figures.push_back(bearing_figure(folder, "bearing_stiffness", stage, bearings, &gear::BearingData::stiffness, 1e8,
                                      "bearing stiffness", "Tangent stiffness  dF/dδ  [10^8 N/m]"));
     figures.push_back(bearing_figure(folder, "bearing_force", stage, bearings, &gear::BearingData::force, 1e3,
                                      "bearing force", "Radial force  F  [kN]"));
+  }
+  if (pair) {
+    figures.push_back(teeth_figure(folder, stage, set.sun_planet.pair,
+                                   {"teeth_sp", "gear 1", "gear 2", "", blue, red, "#d5dcee", "#f6ddd3"}));
+    return figures;
   }
   figures.push_back(teeth_figure(folder, stage, set.sun_planet.pair,
                                  {"teeth_sp", "sun", "planet", "sp", blue, red, "#d5dcee", "#f6ddd3"}));

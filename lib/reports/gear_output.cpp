@@ -59,7 +59,8 @@ std::string modes_csv(const gear::Stage& stage, const std::vector<model::Mode>& 
 std::string mode_summary(const gear::Stage& stage, const std::vector<model::Mode>& modes, bool moves) {
   const double omega_sn = model::scales_of(stage).omega_sn;
   std::vector<std::vector<std::string>> rows{{"mode", "type", "multiplicity", "frequency [Hz]", "ω/ω_sn"}};
-  if (moves) rows[0].emplace_back("at sun speed [rpm]");
+  const std::string driving = stage.is_pair() ? "gear 1" : "sun";
+  if (moves) rows[0].emplace_back("at " + driving + " speed [rpm]");
   for (const model::Mode& mode : modes) {
     const double omega = mode.frequency_ratio * omega_sn;
     rows.push_back({std::to_string(rows.size()), std::string(model::to_string(mode.type)),
@@ -68,7 +69,8 @@ std::string mode_summary(const gear::Stage& stage, const std::vector<model::Mode
     if (moves)
       rows.back().push_back(omega > 0.0 ? fmt::format("{:.0f}", gear::rpm * gear::speeds(stage, omega).sun) : "-");
   }
-  return aligned(rows) + (moves ? "At the sun speed of a mode the mesh frequency is its natural frequency.\n" : "");
+  return aligned(rows) +
+         (moves ? "At the " + driving + " speed of a mode the mesh frequency is its natural frequency.\n" : "");
 }
 
 std::string mode_shapes_csv(const gear::Stage& stage, const std::vector<model::Mode>& modes) {
@@ -131,12 +133,19 @@ std::vector<PhaseRow> phase_rows(const gear::GearSet& set) {
     }
   };
   jumps(set.sun_planet, 0.0);
-  jumps(set.ring_planet, set.ring_mesh_lead);
+  if (!set.is_pair()) jumps(set.ring_planet, set.ring_mesh_lead);
   std::sort(rows.begin(), rows.end(), [](const PhaseRow& a, const PhaseRow& b) { return a.inside < b.inside; });
   return rows;
 }
 
 std::string stiffness_csv(const gear::GearSet& set) {
+  if (set.is_pair()) {
+    CsvWriter csv({"phase", "k_sp_N_per_m", "k_sp_fourier_N_per_m"});
+    for (const PhaseRow& row : phase_rows(set))
+      csv.row(row.phase, set.sun_planet.stiffness(row.phase, row.inside - std::floor(row.inside)),
+              set.sun_planet_stiffness.at(row.phase));
+    return csv.text();
+  }
   CsvWriter csv({"phase", "k_sp_N_per_m", "k_rp_N_per_m", "k_sp_fourier_N_per_m", "k_rp_fourier_N_per_m"});
   const auto value = [](const gear::MeshedPair& mesh, const PhaseRow& row, double lead) {
     const double inside = row.inside + lead;
@@ -156,7 +165,9 @@ struct NamedMesh {
 };
 
 std::vector<NamedMesh> meshes(const gear::GearSet& set, const gear::Stage& stage) {
-  return {{"sp", set.sun_planet, gear::sun_planet_line(stage)}, {"rp", set.ring_planet, gear::ring_planet_line(stage)}};
+  std::vector<NamedMesh> all = {{"sp", set.sun_planet, gear::sun_planet_line(stage)}};
+  if (!set.is_pair()) all.push_back({"rp", set.ring_planet, gear::ring_planet_line(stage)});
+  return all;
 }
 
 std::string load_sharing_csv(const std::vector<NamedMesh>& both, const gear::Lubrication& any) {
@@ -299,7 +310,8 @@ GearOutput write_gear_output(const std::filesystem::path& path, const input::Loa
   Folder folder(path);
   GearOutput out = gear_words(input);
   GearPage page;
-  page.title = stage.name.empty() ? "Planetary stage" : "Planetary stage " + stage.name;
+  page.title = stage.is_pair() ? "Gear pair" : "Planetary stage";
+  if (!stage.name.empty()) page.title += " " + stage.name;
 
   page.mode_ranges = mode_ranges(input, modes);
   folder.write("modes.csv", out.modes);

@@ -40,9 +40,9 @@ class Group {
 };
 
 /// @param module_formula  source of the module
-void add_tooth(std::vector<Quantity>& all, const gear::Tooth& t, const std::string& member, const std::string& index,
-               const std::string& module_formula) {
-  Group g(all, "Teeth of the " + member);
+void add_tooth(std::vector<Quantity>& all, const gear::Tooth& t, const std::string& member, const std::string& title,
+               const std::string& index, const std::string& module_formula) {
+  Group g(all, "Teeth of " + title);
   const auto name = [&](const char* what) { return member + "_" + what; };
   g.add(name("module"), "m_" + index, t.module_mm, "mm", module_formula);
   g.add(name("reference_radius"), "r_" + index, t.reference_radius_mm, "mm", "[G-inv]");
@@ -56,11 +56,13 @@ void add_tooth(std::vector<Quantity>& all, const gear::Tooth& t, const std::stri
   if (!t.internal) g.add(name("undercut_limit"), "x_min" + index, t.undercut_limit(), "-", "[G-form]");
 }
 
+/// @param index  of the symbols; empty: those of a lone pair
 void add_pair(std::vector<Quantity>& all, const gear::Pair& p, const std::string& mesh, const std::string& index,
               const std::string& title) {
   Group g(all, "Contact of " + title);
   const auto name = [&](const char* what) { return mesh + "_" + what; };
-  g.add(name("operating_pressure_angle"), "α_" + index, p.pressure_angle * degree, "deg", "[G-pair]");
+  const bool lone = index.empty();
+  g.add(name("operating_pressure_angle"), lone ? "α_w" : "α_" + index, p.pressure_angle * degree, "deg", "[G-pair]");
   try {
     g.add(name("tight_centre_distance"), "a_0" + index, tight_centre_distance_mm(p.driving, p.driven), "mm", "[G-a0]");
   } catch (const DomainError&) {
@@ -74,7 +76,7 @@ void add_pair(std::vector<Quantity>& all, const gear::Pair& p, const std::string
   g.add(name("pitch_point"), "N_1C", p.pitch_arm_mm, "mm", "[G-path]");
   g.add(name("start_beyond_pitch_point"), "CB_2", p.start_mm - p.pitch_arm_mm, "mm", "[G-path]");
   g.add(name("end_beyond_pitch_point"), "CB_1", p.end_mm - p.pitch_arm_mm, "mm", "[G-path]");
-  g.add(name("contact_ratio"), "ε_" + index, p.contact_ratio(), "-", "[G-path]");
+  g.add(name("contact_ratio"), lone ? "ε_α" : "ε_" + index, p.contact_ratio(), "-", "[G-path]");
   g.add(name("backlash"), "j_t", p.backlash_mm(), "mm", "[G-j]");
   g.add(name("normal_backlash"), "j_bn", p.normal_backlash_mm(), "mm", "[G-j]");
   g.add(name("tip_clearance_driving"), "c_1", p.tip_clearance_1_mm(), "mm", "[G-pair]");
@@ -119,9 +121,10 @@ void add_stiffness(std::vector<Quantity>& all, const gear::MeshedPair& m, const 
   compliance(m.driven, m.pair.radius_2_mm(middle), "driven");
 }
 
-void add_tolerances(std::vector<Quantity>& all, const std::optional<gear::Tolerances>& t, const std::string& member) {
+void add_tolerances(std::vector<Quantity>& all, const std::optional<gear::Tolerances>& t, const std::string& member,
+                    const std::string& title) {
   if (!t) return;
-  Group g(all, "Tolerances of the " + member);
+  Group g(all, "Tolerances of " + title);
   const auto name = [&](const char* what) { return member + "_" + what; };
   g.add(name("single_pitch_deviation"), "f_pt", t->single_pitch, "um", "[G-1328]");
   g.add(name("cumulative_pitch_deviation"), "F_p", t->cumulative_pitch, "um", "[G-1328]");
@@ -230,42 +233,55 @@ bool are_alike(const Frequencies& a, const Frequencies& b) {
       a, b, [](const auto& x, const auto& y) { return x.first == y.first && x.second.size() == y.second.size(); });
 }
 
+/// What a stage has beside two gears: the ring's module, assembly and phases.
+void add_stage(std::vector<Quantity>& all, const gear::GearSet& set, const gear::Stage& stage) {
+  Group g(all, "Stage");
+  g.add("base_pitch_mismatch", "Δp_b", 1e3 * set.base_pitch_mismatch_mm, "um", "planet minus ring as given");
+  g.add("ring_module_as_given", "m_r", set.catalogue.ring.data.module_mm, "mm", "given");
+  const double teeth = set.sun.teeth + set.ring.teeth;
+  g.add("assembly_number", "(z_s+z_r)/N", teeth / static_cast<double>(set.angles_deg.size()), "-",
+        "an integer if equally spaced planets can be assembled");
+  g.add("planet_gap", "", gear::planet_gap_mm(set), "mm", "between tip circles of neighbouring planets");
+  g.add("ring_mesh_lead", "λ_sr", set.ring_mesh_lead, "-", "[G-1]");
+  const auto phases = gear::planet_phases(set);
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    const std::string number = std::to_string(i + 1);
+    g.add("sun_mesh_phase_" + number, "λ_sp" + number, phases[i].sun_planet, "-", "[M-phase]");
+    g.add("ring_mesh_phase_" + number, "λ_rp" + number, phases[i].ring_planet, "-", "[M-phase], λ_sr included");
+  }
+  try {
+    g.add("ring_addendum_bound", "h_ar max", gear::ring_addendum_bound(stage), "-",
+          "largest value with contact of the ring-planet mesh only beyond its pitch point");
+  } catch (const DomainError&) {
+    // No addendum puts the whole path beyond the pitch point: there is no bound to report.
+  }
+}
+
 }  // namespace
 
 std::vector<Quantity> gear_quantities(const gear::GearSet& set, const gear::Stage& stage) {
   std::vector<Quantity> all;
+  const bool pair = set.is_pair();
   {
-    Group g(all, "Stage");
+    Group g(all, pair ? "Pair" : "Stage");
     g.add("centre_distance", "a", set.centre_distance_mm, "mm", is_tight(set) ? "[G-a0]" : "given");
     g.add("tip_shortening", "k", set.tip_shortening, "-", "[G-k-tip]");
-    g.add("base_pitch_mismatch", "Δp_b", 1e3 * set.base_pitch_mismatch_mm, "um", "planet minus ring as given");
-    g.add("ring_module_as_given", "m_r", set.catalogue.ring.data.module_mm, "mm", "given");
-    const double teeth = set.sun.teeth + set.ring.teeth;
-    g.add("assembly_number", "(z_s+z_r)/N", teeth / static_cast<double>(set.angles_deg.size()), "-",
-          "an integer if equally spaced planets can be assembled");
-    g.add("planet_gap", "", gear::planet_gap_mm(set), "mm", "between tip circles of neighbouring planets");
-    g.add("ring_mesh_lead", "λ_sr", set.ring_mesh_lead, "-", "[G-1]");
-    const auto phases = gear::planet_phases(set);
-    for (std::size_t i = 0; i < phases.size(); ++i) {
-      const std::string number = std::to_string(i + 1);
-      g.add("sun_mesh_phase_" + number, "λ_sp" + number, phases[i].sun_planet, "-", "[M-phase]");
-      g.add("ring_mesh_phase_" + number, "λ_rp" + number, phases[i].ring_planet, "-", "[M-phase], λ_sr included");
-    }
-    try {
-      g.add("ring_addendum_bound", "h_ar max", gear::ring_addendum_bound(stage), "-",
-            "largest value with contact of the ring-planet mesh only beyond its pitch point");
-    } catch (const DomainError&) {
-      // No addendum puts the whole path beyond the pitch point: there is no bound to report.
-    }
   }
-  const bool given_module = set.ring.module_mm == set.catalogue.ring.data.module_mm;
-  add_tooth(all, set.sun, "sun", "s", "given");
-  add_tooth(all, set.planet, "planet", "p", "given");
-  add_tooth(all, set.ring, "ring", "r", given_module ? "given" : "[G-mr]");
-  add_pair(all, set.sun_planet.pair, "sun_planet", "sp", "sun and planet");
-  add_pair(all, set.ring_planet.pair, "ring_planet", "rp", "planet and ring");
-  add_stiffness(all, set.sun_planet, set.sun_planet_stiffness, "sun_planet", "the sun-planet mesh");
-  add_stiffness(all, set.ring_planet, set.ring_planet_stiffness, "ring_planet", "the ring-planet mesh");
+  if (!pair) add_stage(all, set, stage);
+  const std::string first = pair ? "gear 1" : "the sun";
+  const std::string second = pair ? "gear 2" : "the planet";
+  const std::string index_1 = pair ? "1" : "s";
+  const std::string index_2 = pair ? "2" : "p";
+  add_tooth(all, set.sun, "sun", first, index_1, "given");
+  add_tooth(all, set.planet, "planet", second, index_2, "given");
+  if (!pair) {
+    const bool given_module = set.ring.module_mm == set.catalogue.ring.data.module_mm;
+    add_tooth(all, set.ring, "ring", "the ring", "r", given_module ? "given" : "[G-mr]");
+  }
+  add_pair(all, set.sun_planet.pair, "sun_planet", pair ? "" : "sp", pair ? "the pair" : "sun and planet");
+  if (!pair) add_pair(all, set.ring_planet.pair, "ring_planet", "rp", "planet and ring");
+  add_stiffness(all, set.sun_planet, set.sun_planet_stiffness, "sun_planet", pair ? "the mesh" : "the sun-planet mesh");
+  if (!pair) add_stiffness(all, set.ring_planet, set.ring_planet_stiffness, "ring_planet", "the ring-planet mesh");
   const gear::Bodies bodies = gear::bodies(set);
   {
     Group g(all, "Bodies");
@@ -275,15 +291,15 @@ std::vector<Quantity> gear_quantities(const gear::GearSet& set, const gear::Stag
       g.add(member + "_mass", "M_" + index, b->mass_kg, "kg", tag);
       g.add(member + "_inertia", "I_" + index, b->inertia_kg_m2, "kg m2", tag);
     };
-    body(bodies.sun, "sun", "s", "[G-M]");
-    body(bodies.planet, "planet", "p", "[G-M]");
+    body(bodies.sun, "sun", index_1, "[G-M]");
+    body(bodies.planet, "planet", index_2, "[G-M]");
     body(bodies.ring, "ring", "r", "[G-M]");
     body(bodies.carrier, "carrier", "c", "[G-Mc]");
   }
   const gear::MemberTolerances tolerances = gear::member_tolerances(set);
-  add_tolerances(all, tolerances.sun, "sun");
-  add_tolerances(all, tolerances.planet, "planet");
-  add_tolerances(all, tolerances.ring, "ring");
+  add_tolerances(all, tolerances.sun, "sun", first);
+  add_tolerances(all, tolerances.planet, "planet", second);
+  add_tolerances(all, tolerances.ring, "ring", "the ring");
   return all;
 }
 
@@ -300,27 +316,29 @@ std::vector<Quantity> operating_quantities(const gear::Stage& stage, double mesh
   const gear::MeshLoad load = gear::mean_mesh_load(stage, mesh_frequency);
   g.add("mesh_frequency_ratio", "Ω", mesh_frequency_ratio, "-", "of the study; 1 for a stage alone");
   g.add("mesh_frequency", "ω_m", mesh_frequency, "rad/s", "[M-23]");
-  g.add("sun_speed", "n_s", speeds.sun * gear::rpm, "rpm", "[G-kin]");
   const bool pair = stage.is_pair();  // it has no carrier and no ring
+  g.add("sun_speed", pair ? "n_1" : "n_s", speeds.sun * gear::rpm, "rpm", "[G-kin]");
   if (!pair) g.add("carrier_speed", "n_c", speeds.carrier * gear::rpm, "rpm", "[G-kin]");
-  g.add("sun_torque", "T_D", torques.sun, "N m", "[G-kin]");
+  g.add("sun_torque", pair ? "T_1" : "T_D", torques.sun, "N m", "[G-kin]");
   if (!pair) {
     g.add("carrier_load_torque", "T_c", torques.carrier, "N m", "[G-kin], external");
     g.add("ring_load_torque", "T_r", torques.ring, "N m", "[G-kin], external; without the reaction of a support");
   }
-  g.add("mean_mesh_force", "F", load.force_N, "N", "T_D / (N r_bs)");
+  g.add("mean_mesh_force", "F", load.force_N, "N", pair ? "T_1 / r_b1" : "T_D / (N r_bs)");
   g.add("mean_planet_load", "F_p", gear::mean_planet_load(stage, mesh_frequency), "N",
-        "both mesh forces on a planet's bearing");
+        pair ? "on each bearing" : "both mesh forces on a planet's bearing");
   if (!pair)
     g.add("planet_centrifugal_force", "m_p ω_c² r_c", gear::planet_centrifugal_force(stage, mesh_frequency), "N",
           "[G-cf], in the equations of motion with /model/centrifugal \"included\"");
-  g.add("mean_deflection", "F/k_0", gear::static_deflection_um(stage.sun_planet_mesh, load), "um", "sun-planet mesh");
+  g.add("mean_deflection", "F/k_0", gear::static_deflection_um(stage.sun_planet_mesh, load), "um",
+        pair ? "at the mean stiffness" : "sun-planet mesh");
   if (!pair)
     g.add("mean_deflection_ring_planet", "F/k_0", gear::static_deflection_um(stage.ring_planet_mesh, load), "um",
           "ring-planet mesh");
   const auto error = [&](const std::string& name, const gear::Mesh& mesh) {
     const double amplitude = std::ranges::max(mesh.error_amplitude_um);
-    g.add(name + "_error_amplitude", "E", amplitude, "um", "[G-error], or as given; the largest of the planets");
+    g.add(name + "_error_amplitude", "E", amplitude, "um",
+          pair ? "[G-error], or as given" : "[G-error], or as given; the largest of the planets");
     g.add(name + "_error_over_deflection", "E k_0/F", amplitude / gear::static_deflection_um(mesh, load), "-",
           "above 1 the error displaces the mesh more than the load does");
   };
@@ -345,6 +363,7 @@ std::vector<std::string> contact_verdicts(const gear::GearSet& set, const gear::
     return fmt::format("The {} mesh lies {}: contact from {:+.3f} to {:+.3f} mm of it, contact ratio {:.4f}.", mesh,
                        side, start, end, p.contact_ratio());
   };
+  if (set.is_pair()) return {verdict(set.sun_planet.pair, "pair's")};
   std::vector<std::string> lines = {verdict(set.sun_planet.pair, "sun-planet"),
                                     verdict(set.ring_planet.pair, "ring-planet")};
   try {
@@ -529,10 +548,16 @@ std::string gear_page(const GearPage& page, const input::LoadedInput& input, con
                         mode.frequency_ratio * scales.omega_sn / (2.0 * std::numbers::pi), mode.frequency_ratio,
                         model::to_string(mode.type), mode.multiplicity, where, range);
   }
-  text += fmt::format(
-      "\nThe scale ω_sn = {:.1f} rad/s [M-23] is that of one sun-planet pair alone. It is not the frequency of a mode. "
-      "{}",
-      scales.omega_sn, rotational_modes(input.study.stage, modes));
+  if (input.study.stage.is_pair())
+    text += fmt::format(
+        "\nThe scale ω_sn = {:.1f} rad/s [M-23] is the natural frequency of the pair with rigid bearings and without "
+        "torsional supports.",
+        scales.omega_sn);
+  else
+    text += fmt::format(
+        "\nThe scale ω_sn = {:.1f} rad/s [M-23] is that of one sun-planet pair alone. It is not the frequency of a "
+        "mode. {}",
+        scales.omega_sn, rotational_modes(input.study.stage, modes));
   text += "\n\n## All values of the model and their origins\n\n| value | | unit | origin |\n|---|---|---|---|\n";
   const nlohmann::json& resolved = input.resolved;
   const nlohmann::json& stage = resolved.contains("stage") ? resolved["stage"] : resolved;
@@ -543,9 +568,10 @@ std::string gear_page(const GearPage& page, const input::LoadedInput& input, con
   if (!page.files.empty()) {
     text += "\n## Data\n\n";
     for (const std::string& file : page.files)
-      text +=
-          fmt::format("* [{0}]({0}){1}\n", file,
-                      file == "load_sharing.csv" ? ": of tooth pairs; `epicyclic run` computes that of planets" : "");
+      text += fmt::format("* [{0}]({0}){1}\n", file,
+                          file == "load_sharing.csv" && !input.study.stage.is_pair()
+                              ? ": of tooth pairs; `epicyclic run` computes that of planets"
+                              : "");
   }
   text += "\nlib/EQUATIONS.md explains the tags in brackets.\n";
   return text;

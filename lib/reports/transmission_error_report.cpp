@@ -15,6 +15,9 @@ constexpr int steps_to_design_torque = 20;
 
 std::string name_of(const TransmissionErrorTable& table) { return table.mesh == "sp" ? "sun-planet" : "ring-planet"; }
 
+/// A stage has two meshes.
+bool of_pair(const std::vector<TransmissionErrorTable>& tables) { return tables.size() == 1; }
+
 }  // namespace
 
 const TransmissionErrorRow& TransmissionErrorTable::at_design_torque() const { return rows[steps_to_design_torque]; }
@@ -39,7 +42,7 @@ std::vector<TransmissionErrorTable> transmission_errors(const gear::GearSet& set
     tables.push_back(std::move(table));
   };
   add("sp", set.sun_planet, contacts.sun_planet);
-  add("rp", set.ring_planet, contacts.ring_planet);
+  if (contacts.ring_planet) add("rp", set.ring_planet, *contacts.ring_planet);
   return tables;
 }
 
@@ -58,17 +61,17 @@ std::string transmission_error_csv(const std::vector<TransmissionErrorTable>& ta
 std::string transmission_error_section(const std::vector<TransmissionErrorTable>& tables, bool modified) {
   std::string text = fmt::format(
       "\n## Static transmission error\n\nDisplacement along the line of action by the loads of the tooth pairs "
-      "[G-load], over a mesh period, at the torque of {:.6g} N m on the sun. Table: "
+      "[G-load], over a mesh period, at the torque of {:.6g} N m on {}. Table: "
       "`static_transmission_error.csv`.\n\n"
       "| mesh | mean um | peak to peak um | harmonics 1, 2, 3 um | contact ratio | least peak to peak um | at N m |\n"
       "|---|---|---|---|---|---|---|\n",
-      tables.front().design_torque_Nm);
+      tables.front().design_torque_Nm, of_pair(tables) ? "gear 1" : "the sun");
   for (const TransmissionErrorTable& table : tables) {
     const gear::TransmissionError& e = table.at_design_torque().error;
-    text +=
-        fmt::format("| {} | {:.4g} | {:.4g} | {:.4g}, {:.4g}, {:.4g} | {:.4f} | {:.4g} | {:.6g} |\n", name_of(table),
-                    e.mean_um, e.peak_to_peak_um, e.harmonic_um[0], e.harmonic_um[1], e.harmonic_um[2], e.contact_ratio,
-                    table.least().error.peak_to_peak_um, table.least().torque_Nm);
+    text += fmt::format("| {} | {:.4g} | {:.4g} | {:.4g}, {:.4g}, {:.4g} | {:.4f} | {:.4g} | {:.6g} |\n",
+                        of_pair(tables) ? "gear 1, gear 2" : name_of(table), e.mean_um, e.peak_to_peak_um,
+                        e.harmonic_um[0], e.harmonic_um[1], e.harmonic_um[2], e.contact_ratio,
+                        table.least().error.peak_to_peak_um, table.least().torque_Nm);
   }
   text += modified ? "\nThe model has this error at this torque, and the error without load at none. At other torques "
                      "it has e + F/k, the dashed curve.\n"

@@ -66,6 +66,15 @@ for module in 1.5 6; do
 done
 paste modes.1.5 modes.6 | awk '{ if ($1 / $2 > 1.1 || $1 / $2 < 0.9) exit 1 }' || fail "modes of module 1.5 and 6: $(paste modes.1.5 modes.6)"
 
+# A lone pair: no planets, no ring, gears that only rotate.
+rm -rf pair
+[ "$(code_of "$epicyclic" init pair --pair --teeth 20,31 --module 4 --shifts 0.3,0.1 --torque 300 --speed 3000)" = 0 ] || fail "init --pair: $(<stderr)"
+[ -z "$(<stderr)" ] || fail "init --pair warns: $(<stderr)"
+grep -q '"boundary": "pair"' pair/stage.json || fail "no pair"
+grep -q '"ring"\|"planets"\|"carrier"' pair/stage.json && fail "a ring of a pair"
+[ "$(code_of "$epicyclic" gear pair/point.json -o pair/gear)" = 0 ] || fail "gear of a pair: $(<stderr)"
+[ "$(code_of "$epicyclic" check pair/speed.json --no-time)" = 0 ] || fail "check of a pair: $(<stderr)"
+
 # Planets where the drawing has them.
 drawing --teeth 21,28,77 --angles 0,117.551020408,238.775510204
 grep -c '117.551020408' set/stage.json >/dev/null || fail "angles of the drawing are not in the stage"
@@ -94,6 +103,12 @@ refused init refused --module 0
 refused init refused --planets 9
 refused init refused --torque -3
 refused init refused --shifts 0,0
+refused init refused --pair --shifts 0,0,0
+refused init refused --pair --teeth 20,31,82
+grep -q '^init: --teeth of a pair are two' stderr || fail "three gears of a pair: $(<stderr)"
+refused init refused --pair --planets 3
+refused init refused --pair --angles 0,180
+refused init refused --pair --teeth 20,4
 
 # Each key once, in the schema's own words.
 [ "$(code_of "$epicyclic" keys)" = 0 ] || fail "keys: $(<stderr)"

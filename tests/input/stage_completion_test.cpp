@@ -266,7 +266,7 @@ TEST(StageCompletion, ModifiedFlanksHaveTheTransmissionErrorOfTheirContact) {
   const gear::Stage& stage = input.study.stage;
   const gear::LoadedContacts contacts = gear::loaded_contacts(gear::make_gear_set(stage), 900.0);
   for (const auto& [mesh, contact] : {std::pair(&stage.sun_planet_mesh, &contacts.sun_planet),
-                                      std::pair(&stage.ring_planet_mesh, &contacts.ring_planet)}) {
+                                      std::pair(&stage.ring_planet_mesh, &*contacts.ring_planet)}) {
     ASSERT_TRUE(mesh->error_curve.has_value());
     const auto error = model::error_track(*mesh->error_curve, 1.0);
     const auto stiffness = model::stiffness_track(*mesh->stiffness_curve, 1e-6);

@@ -285,6 +285,16 @@ class Stages(unittest.TestCase):
         self.assertIn("21/28/77", repr(s))
         with self.assertRaises(ep.InputError):
             ep.Stage.from_drawing(teeth=(21, 28, 5))
+        pair = ep.Stage.from_drawing(teeth=(20, 31), module_mm=4, profile_shifts=(0.3, 0.1), torque_Nm=200, pair=True)
+        self.assertIn("20/31 teeth, a pair", repr(pair))
+        self.assertEqual(pair.check()["problems"], [])
+        quantities = pair.gear()["quantities"]
+        self.assertGreater(quantities["sun_planet_contact_ratio"]["value"], 1)
+        self.assertNotIn("ring_module", quantities)
+        self.assertEqual(pair.rhs(mesh_frequency_ratio=0.5).dimension, 2)
+        for given in ({"teeth": (20, 31, 82)}, {"teeth": (20, 31), "planets": 3}, {"teeth": (20, 31), "profile_shifts": (0, 0, 0)}):
+            with self.assertRaises(ep.InputError):
+                ep.Stage.from_drawing(**given, pair=True)
         with self.assertRaises(TypeError):
             ep.Stage.from_drawing(teeth=(21, 28), modul=3)
 

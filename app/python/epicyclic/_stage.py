@@ -89,37 +89,48 @@ class Stage:
         torque_Nm: Optional[float] = None,
         speed_rpm: Optional[float] = None,
         name: str = "stage",
+        pair: bool = False,
     ) -> Stage:
-        """Make a stage from the numbers of a drawing, as ``epicyclic init`` does.
+        """Make a stage or a lone pair from the numbers of a drawing, as ``epicyclic init`` does.
 
         Parameters
         ----------
         teeth
-            Of sun, planet and ring; without the ring's: sun + 2 planet.
+            Of sun, planet and ring; without the ring's: sun + 2 planet. Of a pair: gear 1 and gear 2.
         module_mm, pressure_angle_deg, width_mm
             Module [mm], pressure angle [deg], face width [mm].
         profile_shifts
-            Of sun, planet and ring [-].
+            Of sun, planet and ring [-]. Of a pair: gear 1 and gear 2.
         planets
             Their number.
         angles_deg
             Angles of the planets [deg]; default: as equally spaced as assembly allows.
         torque_Nm
-            On the sun [N m]; default: an estimate from module and face width.
+            On the sun or gear 1 [N m]; default: an estimate from module and face width.
         speed_rpm
-            Rated speed of the sun [rpm]; ``sweep()`` is then over 0.2 to 1.5 of it.
+            Rated speed of the sun or gear 1 [rpm]; ``sweep()`` is then over 0.2 to 1.5 of it.
         name
             Name of the stage.
+        pair
+            Whether it is a lone pair of gears, which only rotate. It has no planets and no angles.
         """
+        if not isinstance(pair, bool):
+            raise TypeError(f"pair is {repr_of(pair)}, must be True or False")
         if not isinstance(name, str):
             raise TypeError(f"name is {repr_of(name)}, must be a text")
         drawing = core().Drawing()
         drawing.teeth = [int(z) for z in _numbers(teeth, "teeth")]
-        if len(drawing.teeth) not in (2, 3):
-            raise InputError(f"teeth has {len(drawing.teeth)} numbers, must be of sun, planet and, if given, ring")
+        drawing.pair = pair
+        gears = "gear 1 and gear 2" if pair else "sun, planet and, if given, ring"
+        if len(drawing.teeth) not in ((2,) if pair else (2, 3)):
+            raise InputError(f"teeth has {len(drawing.teeth)} numbers, must be of {gears}")
         drawing.profile_shifts = _numbers(profile_shifts, "profile_shifts")
-        if len(drawing.profile_shifts) not in (0, 3):
-            raise InputError("profile_shifts must have three numbers: of sun, planet and ring")
+        if len(drawing.profile_shifts) not in (0, 2 if pair else 3):
+            raise InputError(
+                "profile_shifts must have two numbers: of gear 1 and gear 2"
+                if pair
+                else "profile_shifts must have three numbers: of sun, planet and ring"
+            )
         drawing.angles_deg = _numbers(angles_deg, "angles_deg")
         drawing.planets = None if planets is None else int(_numbers([planets], "planets")[0])
         for key, value in (
@@ -477,9 +488,13 @@ class Stage:
         stage = document.get("stage", document)
         gears = stage.get("catalogue", {})
         parts = [repr(str(document.get("name") or stage.get("name") or "stage"))]
-        if all("teeth" in gears.get(part, {}) for part in ("sun", "planet", "ring")):
-            parts.append("/".join(str(gears[part]["teeth"]) for part in ("sun", "planet", "ring")) + " teeth")
-        if isinstance(stage.get("planets"), dict) and "count" in stage["planets"]:
+        pair = stage.get("boundary") == "pair"
+        members = ("sun", "planet") if pair else ("sun", "planet", "ring")
+        if all("teeth" in gears.get(part, {}) for part in members):
+            parts.append("/".join(str(gears[part]["teeth"]) for part in members) + " teeth")
+        if pair:
+            parts.append("a pair")
+        elif isinstance(stage.get("planets"), dict) and "count" in stage["planets"]:
             parts.append(f"{stage['planets']['count']} planets")
         if "study" in document:
             parts.append(f"study: {document['study']['kind']}")
