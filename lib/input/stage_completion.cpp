@@ -430,7 +430,10 @@ Completion complete_stage(json& stage, const std::string& root, ReadContext& con
   if (read && read->catalogue->is_modified() && stage.contains("load")) {
     // The load of modified flanks; it must not keep other values from being computed if it cannot be read.
     stated["load"] = stage["load"];
-    if (auto with_load = readable_part(stated)) read = std::move(with_load);
+    if (auto with_load = readable_part(stated))
+      read = std::move(with_load);
+    else
+      read->load.torque_Nm = 1.0;  // in place of one that the reader refuses
   }
   if (!read) return {.complete = false, .computed = {}};
   if (read->is_pair()) read->planet_count = 1;
