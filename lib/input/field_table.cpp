@@ -640,6 +640,17 @@ AnyField& AnyTable::add_objects(std::string_view key, const table_detail::AnyAcc
   return field;
 }
 
+namespace {
+
+/// Is there a finding of the value of this key?
+bool is_refused(const std::string& key, const ReadContext& context) {
+  return std::ranges::any_of(context.findings, [&](const Finding& f) {
+    return (f.kind == Finding::Kind::type || f.kind == Finding::Kind::range) && f.pointer.ends_with("/" + key);
+  });
+}
+
+}  // namespace
+
 void AnyTable::read_any(const json& value, const std::string& pointer, void* object, ReadContext& context) const {
   if (!table_detail::check_object(value, pointer, context)) return;
   table_detail::check_keys(value, pointer, keys(), rules_, context);
@@ -647,7 +658,8 @@ void AnyTable::read_any(const json& value, const std::string& pointer, void* obj
     const std::string place = pointer + pointer_step(field.key);
     if (const auto it = value.find(field.key); it != value.end()) {
       field.read(*it, place, object, context);
-    } else if (field.is_required && !(field.excused && field.excused(object))) {
+    } else if (field.is_required &&
+               !(field.excused && (field.excused(object) || is_refused(field.excused_by, context)))) {
       context.add(Finding::Kind::missing_key, place, "is missing: " + field.description);
     }
   }

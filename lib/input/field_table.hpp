@@ -449,13 +449,15 @@ struct AnyField : FieldWords {
       change;
 
   std::function<bool(const void* object)> excused;  ///< a required key that this object need not have; may be empty
+  std::string excused_by;                           ///< the key that decides it
 
   AnyField& required() {
     is_required = true;
     return *this;
   }
-  /// Required, but not of an object with some property.
-  AnyField& required_unless(std::function<bool(const void* object)> property) {
+  /// Required, but not of an object with some property, which a key decides. If that one is refused, it may be missing.
+  AnyField& required_unless(const char* decider, std::function<bool(const void* object)> property) {
+    excused_by = decider;
     excused = std::move(property);
     return required();
   }

@@ -485,11 +485,12 @@ const Table<Stage>& lumped_table() {
   static const auto table = [] {
     Table<Stage> t("lumped", "The stage as lumped values.");
     t.object("sun", itself, sun_table()).required();
-    t.object("ring", of_stage_only(&Stage::ring), ring_table()).required_unless(is_a_pair);
-    t.object("carrier", of_stage_only(&Stage::carrier), carrier_table()).required_unless(is_a_pair);
+    t.object("ring", of_stage_only(&Stage::ring), ring_table()).required_unless("boundary", is_a_pair);
+    t.object("carrier", of_stage_only(&Stage::carrier), carrier_table()).required_unless("boundary", is_a_pair);
     t.object("planet", &Stage::planet, planet_table()).required();
     t.object("sun_planet_mesh", &Stage::sun_planet_mesh, mesh_table()).required();
-    t.object("ring_planet_mesh", of_stage_only(&Stage::ring_planet_mesh), mesh_table()).required_unless(is_a_pair);
+    t.object("ring_planet_mesh", of_stage_only(&Stage::ring_planet_mesh), mesh_table())
+        .required_unless("boundary", is_a_pair);
     t.number("ring_mesh_lead_1", of_stage_only(&Stage::ring_mesh_lead_1), between(-1, 1),
              "Share of a mesh period by which the ring-planet mesh leads the sun-planet mesh [-].");
     return t;
@@ -502,7 +503,7 @@ const Table<Stage>& planets_table() {
     Table<Stage> t("planets", "How many planets there are, and where.");
     t.integer("count", &Stage::planet_count, between(1, gear::planets_max),
               "Number of planets [-], 2 to 6; 1 of a pair, for which it need not be given.")
-        .required_unless(is_a_pair);
+        .required_unless("boundary", is_a_pair);
     t.numbers("angles_deg", &Stage::angles_deg, between(-largest_angle_deg, largest_angle_deg), 1, gear::planets_max,
               "Angle of each planet [deg]; equally spaced from 0 if not given.");
     t.number("centre_distance_mm", &Stage::centre_distance_mm, length,
@@ -687,7 +688,7 @@ const Table<Stage>& stage_table() {
              "boundary `fixed_sun` it is the carrier or the ring.");
     t.number("carrier_to_sun_speed", &Stage::carrier_to_sun_speed, between(-100, 0.99),
              "Speed of the carrier over that of the sun with boundary `free` [-].");
-    t.object("planets", itself, planets_table()).required_unless(is_a_pair);
+    t.object("planets", itself, planets_table()).required_unless("boundary", is_a_pair);
     t.object("load", &Stage::load, load_table());
     t.object("catalogue", present(&Stage::catalogue), catalogue_table());
     t.object("lumped", itself, lumped_table()).required();

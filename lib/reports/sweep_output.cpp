@@ -197,7 +197,8 @@ std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter,
   if (parameter != studies::speed_parameter) return std::nullopt;
   if (given) return figures::SecondAbscissa{speed_label(given->key), given->per_ratio};
   if (!(omega > 0.0) || !(record.speeds.sun > 0.0)) return std::nullopt;
-  return figures::SecondAbscissa{speed_label("sun_speed_rpm"), gear::rpm * record.speeds.sun / omega};
+  return figures::SecondAbscissa{record.is_pair() ? "Speed of gear 1  n_1  [rpm]" : speed_label("sun_speed_rpm"),
+                                 gear::rpm * record.speeds.sun / omega};
 }
 
 std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter,

@@ -298,7 +298,8 @@ void grow(Session& session, const BranchesOptions& options, const reports::AxisW
   const auto place = [&](double value) {
     std::string words = fmt::format(" at {} = {}", axis.name, axis.text(value, 6));
     if (axis.name == studies::speed_parameter)
-      words += fmt::format(" (sun {} rpm)", short_text(gear::rpm * first.speeds.sun / first.omega * value, 5));
+      words += fmt::format(" ({} {} rpm)", first.has_ring() ? "sun" : "gear 1",
+                           short_text(gear::rpm * first.speeds.sun / first.omega * value, 5));
     return words;
   };
   OrderedJournal journal(session, "journal.bin", "step");

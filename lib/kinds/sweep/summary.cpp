@@ -147,7 +147,14 @@ std::vector<Largest> largest_of(bool pair) {
       {"largest mesh force of a planet, over the average of the planets", "1",
        [](const PointSummary& r) { return r.meshes.largest_share(&Course::largest); }, true},
   };
-  if (pair) std::erase_if(all, [](const Largest& l) { return l.of_stage; });
+  if (!pair) return all;
+  std::erase_if(all, [](const Largest& l) { return l.of_stage; });
+  constexpr std::array<std::pair<const char*, const char*>, 3> words = {
+      {{" a sun mesh", " the mesh"}, {", sun mesh", ""}, {"a planet's bearing", "the bearing of gear 2"}}};
+  for (Largest& one : all)
+    for (const auto& [of_stage, of_pair] : words)
+      if (const auto at = one.what.find(of_stage); at != std::string::npos)
+        one.what.replace(at, std::string_view(of_stage).size(), of_pair);
   return all;
 }
 
@@ -230,7 +237,8 @@ class Summary {
       if (words_.name != output_.sweep.axis.name)
         one.at += fmt::format(" ({})", words_.name);
       else if (words_.name == studies::speed_parameter && std::isfinite(r.meshes.speeds.sun))
-        one.at += fmt::format(" (sun {} rpm)", short_text(gear::rpm * r.meshes.speeds.sun, 5));
+        one.at += fmt::format(" ({} {} rpm)", r.meshes.is_pair() ? "gear 1" : "sun",
+                              short_text(gear::rpm * r.meshes.speeds.sun, 5));
       one.at += fmt::format(", {}, {}", store::direction_word(r.point.direction), regime_name(r));
     }
   }
