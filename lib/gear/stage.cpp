@@ -296,6 +296,16 @@ void check_shaft_errors(Problems& out, const Stage& s) {
   }
   const std::string planet = "/lumped/planet";
   phase_needs_amount(planet, s.planet.eccentricity_phase_deg.has_value(), s.planet.eccentricity_um.has_value());
+  for (const auto& [key, errors] : {std::pair("/pitch_error_um", &s.planet.pitch_error_um),
+                                    std::pair("/pitch_error_ring_um", &s.planet.pitch_error_ring_um)}) {
+    if (!*errors || !s.planet.teeth) continue;
+    const auto count = static_cast<int>((*errors)->size());
+    if (count != *s.planet.teeth && count != *s.planet.teeth * s.planet_count)
+      out.add(planet + key, "has ", static_cast<double>(count), " numbers; one for each of ",
+              static_cast<double>(*s.planet.teeth), " teeth is needed, of all planets or of one after the other");
+  }
+  if (s.is_pair() && s.planet.pitch_error_ring_um)
+    out.add(planet + "/pitch_error_ring_um", "must be left out: a pair has no ring; gear 2 has pitch_error_um");
   if (s.planet.eccentricity_um)
     check_per_planet(out, planet + "/eccentricity_um", *s.planet.eccentricity_um, s.planet_count);
   if (s.planet.eccentricity_phase_deg)
@@ -410,7 +420,7 @@ int Stage::mesh_periods() const {
     if (has_errors) periods = std::min(std::lcm(periods, teeth.value_or(1)), mesh_periods_max + 1);
   };
   repeats(sun.errors.repeat(), sun.teeth);
-  repeats(planet.eccentricity_um.has_value(), planet.teeth);
+  repeats(planet.repeat(), planet.teeth);
   repeats(ring.errors.repeat(), ring.teeth);
   return periods;
 }

@@ -161,8 +161,13 @@ struct Planet {
   std::optional<double> torsional_support_N_per_m{};  ///< of gear 2 of a pair, on its base radius [N/m]
   /// As those of ShaftErrors, one number or one per planet; the direction is relative to the planet's own radius.
   std::optional<std::vector<double>> eccentricity_um{}, eccentricity_phase_deg{};
+  /// Cumulative pitch errors of the flanks in mesh with the sun and with the ring, in the order of rising angles from
+  /// the tooth in contact at s = 0: of all planets, or of one planet after the other [um].
+  std::optional<std::vector<double>> pitch_error_um{}, pitch_error_ring_um{};
   std::optional<double> bearing_clearance_half_um{};  ///< half the radial clearance of the bearing, b_p [um]
   BearingRating rating{};                             ///< of the bearing
+
+  [[nodiscard]] bool repeat() const { return eccentricity_um || pitch_error_um || pitch_error_ring_um; }
 };
 
 /// Friction over phase = s / 2 pi on the common s of planet 1, in [0, 1), rising; smooth between breakpoints.

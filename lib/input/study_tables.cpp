@@ -267,6 +267,13 @@ const Table<Planet>& planet_table() {
     t.number_or_numbers("eccentricity_um", &Planet::eccentricity_um, gap, gear::planets_max,
                         "Distance from the planet's axis to the centre of its teeth, half of the run-out [um]: one "
                         "number, or one per planet.");
+    const std::string in_order =
+        " The first tooth is in contact at the mesh phase 0, the next ones follow towards rising angles. There are as "
+        "many numbers as teeth, or as the teeth of all planets. Positive: the tooth bears less [um].";
+    t.numbers("pitch_error_um", &Planet::pitch_error_um, signed_error, 3, 10000,
+              "Cumulative pitch error of each flank in mesh with the sun, or of gear 2 of a pair." + in_order);
+    t.numbers("pitch_error_ring_um", &Planet::pitch_error_ring_um, signed_error, 3, 10000,
+              "Cumulative pitch error of each flank in mesh with the ring." + in_order);
     t.number_or_numbers("eccentricity_phase_deg", &Planet::eccentricity_phase_deg,
                         between(-largest_angle_deg, largest_angle_deg), gear::planets_max,
                         "Direction of the eccentricity at the mesh phase 0, from the planet's own radius [deg]: one "

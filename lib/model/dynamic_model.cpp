@@ -198,7 +198,7 @@ StageOutputsAt make_stage_outputs(Layout layout, const std::shared_ptr<const Par
 std::vector<Shaft> shafts_of(const gear::Stage& stage) {
   std::vector<Shaft> all;
   if (stage.sun.errors.repeat()) all.push_back({"sun", *stage.sun.teeth});
-  if (stage.planet.eccentricity_um) all.push_back({"planets", *stage.planet.teeth});
+  if (stage.planet.repeat()) all.push_back({"planets", *stage.planet.teeth});
   if (stage.ring.errors.repeat()) all.push_back({"ring", *stage.ring.teeth});
   return all;
 }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -245,8 +247,8 @@ class Shafts {
     const auto line_rp = [&](std::size_t i) { return -alpha.ring_planet - angles_[i]; };
     add_central(stage_.sun, p_.sun_planet, along_, line_sp);
     add_central(stage_.ring, p_.ring_planet, -along_, line_rp);
-    add_planets(p_.sun_planet, line_sp);
-    add_planets(p_.ring_planet, line_rp);
+    add_planets(p_.sun_planet, line_sp, stage_.planet.pitch_error_um);
+    add_planets(p_.ring_planet, line_rp, stage_.planet.pitch_error_ring_um);
   }
 
  private:
@@ -276,36 +278,45 @@ class Shafts {
     for (std::size_t i = 0; i < N; ++i) {
       if (eccentricity)
         add_sine(errors, i, -length(*eccentricity), mirror_ * phase_deg.value_or(0.0) * radian + line(i), direction);
-      if (pitch) {
-        add_teeth(errors, i, *pitch, direction);
-        mesh.error_mean[i] += length(std::accumulate(pitch->begin(), pitch->end(), 0.0) / static_cast<double>(teeth));
-      }
+      if (pitch) add_teeth(errors, mesh, i, *pitch, angles_[i] - angles_[0], direction);
     }
     mesh.shafts.push_back(std::move(errors));
   }
 
-  /// sum_h c_h cos h (phi_i - phi_1 - direction s / teeth - angle of the tooth).
-  void add_teeth(Errors& errors, std::size_t i, const std::vector<double>& pitch, double direction) const {
+  /// sum_h c_h cos h (at - direction s / teeth - angle of the tooth), and the mean.
+  void add_teeth(Errors& errors, MeshParameters<double, N>& mesh, std::size_t i, std::span<const double> pitch,
+                 double at, double direction) const {
     const auto count = static_cast<double>(pitch.size());
     for (std::size_t h = 1; h <= errors.cosine.size(); ++h) {
       const double part = (2 * h == pitch.size() ? 1.0 : 2.0) / count;
       for (std::size_t k = 0; k < pitch.size(); ++k) {
         const double tooth = mirror_ * two_pi * static_cast<double>(k) / count;
-        const double angle = static_cast<double>(h) * (angles_[i] - angles_[0] - tooth);
+        const double angle = static_cast<double>(h) * (at - tooth);
         errors.cosine[h - 1][i] += part * length(pitch[k]) * std::cos(angle);
         errors.sine[h - 1][i] += direction * part * length(pitch[k]) * std::sin(angle);
       }
     }
+    mesh.error_mean[i] += length(std::accumulate(pitch.begin(), pitch.end(), 0.0) / count);
   }
 
+  /// @param pitch  of the flanks in this mesh
   template <class F>
-  void add_planets(MeshParameters<double, N>& mesh, const F& line) {
+  void add_planets(MeshParameters<double, N>& mesh, const F& line, const std::optional<std::vector<double>>& pitch) {
     const auto& [amount, phase_deg] = std::tie(stage_.planet.eccentricity_um, stage_.planet.eccentricity_phase_deg);
-    if (!amount) return;
-    Errors errors = none(*stage_.planet.teeth, 1);
+    if (!amount && !pitch) return;
+    const auto teeth = static_cast<std::size_t>(*stage_.planet.teeth);
+    Errors errors = none(*stage_.planet.teeth, pitch ? std::min(gear::harmonics_max, teeth / 2) : 1);
     for (std::size_t i = 0; i < N; ++i) {
-      const double own = phase_deg ? mirror_ * per_planet(*phase_deg, i) * radian : 0.0;
-      add_sine(errors, i, length(per_planet(*amount, i)), angles_[i] + own + line(i), -along_);
+      if (amount) {
+        const double own = phase_deg ? mirror_ * per_planet(*phase_deg, i) * radian : 0.0;
+        add_sine(errors, i, length(per_planet(*amount, i)), angles_[i] + own + line(i), -along_);
+      }
+      if (pitch) {
+        const std::span<const double> all(*pitch);
+        // Tooth k is in contact where d (s + 2 pi lambda_i) / z_p is its angle.
+        add_teeth(errors, mesh, i, all.size() > teeth ? all.subspan(i * teeth, teeth) : all,
+                  along_ * two_pi * mesh.phase_cycles[i] / static_cast<double>(teeth), -along_);
+      }
     }
     mesh.shafts.push_back(std::move(errors));
   }

@@ -140,6 +140,38 @@ TEST(ShaftErrors, ToothByTooth) {
     }
 }
 
+/// Each flank of a planet brings its own error when its contact begins, to each of its two meshes.
+TEST(ShaftErrors, ToothByToothOfPlanets) {
+  const int z = 25;
+  for (const bool of_sun : {true, false})
+    for (const bool each : {true, false})
+      for (const bool runs_backward : {false, true}) {
+        gear::Stage stage = quiet(problems::r1());
+        if (runs_backward) stage = backward(stage);
+        const std::size_t count = each ? planets * z : z;
+        std::vector<double> teeth;
+        for (std::size_t k = 0; k < count; ++k)
+          teeth.push_back(3.0 * std::sin(0.3 + 1.7 * static_cast<double>(k * k)) + 1.0);
+        (of_sun ? stage.planet.pitch_error_um : stage.planet.pitch_error_ring_um) = teeth;
+        const DynamicModel m = make_dynamic_model(stage, scales_of(stage), omega, {});
+        ASSERT_EQ(m.mesh_periods, z);
+        ASSERT_EQ(m.shafts.size(), 1U);
+        EXPECT_EQ(m.shafts[0].member, "planets");
+        const double lead = of_sun ? 0.0 : stage.ring_mesh_lead_1;
+        const int direction = runs_backward ? -1 : 1;
+        for (int k = 1; k < 2 * z; ++k)
+          for (std::size_t i = 0; i < planets; ++i) {
+            // All planets of this stage mesh in phase: a contact begins at s = 2 pi (k - lead).
+            const double cycles = lead - std::floor(lead);
+            const MeshDeflections d = deflections_at_rest(m, (k - cycles) * two_pi);
+            const int tooth = ((direction * k) % z + z) % z;
+            const double error = teeth[static_cast<std::size_t>(tooth) + (each ? i * z : 0)] * 1e-6 / length_scale_m;
+            EXPECT_NEAR((of_sun ? d.sun_planet : d.ring_planet)[i], -error, 1e-11) << k << ' ' << i;
+            EXPECT_EQ((of_sun ? d.ring_planet : d.sun_planet)[i], 0.0);
+          }
+      }
+}
+
 TEST(ShaftErrors, RepeatWithTheCommonPeriod) {
   gear::Stage stage = problems::r1_nonlinear();
   stage.sun.errors.eccentricity_um = 7.0;
@@ -225,6 +257,12 @@ TEST(ShaftErrors, RefusalsNameTheKey) {
   EXPECT_TRUE(
       refused([](auto& s) { s.ring.errors.eccentricity_phase_deg = 3.0; }, "/lumped/ring/eccentricity_phase_deg: "));
   EXPECT_TRUE(refused([](auto& s) { s.planet.eccentricity_um = {1.0, 2.0}; }, "/lumped/planet/eccentricity_um: "));
+  EXPECT_TRUE(refused([](auto& s) { s.planet.pitch_error_um = {1.0, 2.0}; }, "/lumped/planet/pitch_error_um: "));
+  EXPECT_TRUE(refused(
+      [](auto& s) {
+        s.planet.pitch_error_ring_um = {1.0, 2.0};
+      },
+      "/lumped/planet/pitch_error_ring_um: "));
   EXPECT_TRUE(refused(
       [](auto& s) {
         s = problems::with_teeth(s, 29, 31, 91, 3);
