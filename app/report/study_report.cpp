@@ -121,8 +121,7 @@ ReportColumn described(const Described& known, const std::string& table, const s
   if (table == "ramp.csv" || table == "orders.csv") {
     if (name == "mesh_frequency_ratio") return {name, "1", "Mesh frequency ratio Ω"};
     const auto order = name.find("_order_");
-    if (order != std::string::npos)
-      return {name, "b_c", "order " + name.substr(order + 7) + " of δ_sp,1"};
+    if (order != std::string::npos) return {name, "b_c", "order " + name.substr(order + 7) + " of δ_sp,1"};
     if (name.starts_with("delta_")) return {name, "b_c", ""};
   }
   if (table == "history.csv") {

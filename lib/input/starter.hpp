@@ -47,8 +47,8 @@ struct Drawing {
 /// given.
 [[nodiscard]] std::vector<double> assembly_angles(const Drawing& drawing);
 
-/// The stage as a file: ring held, carrier free; planets are spaced evenly, or as nearly so as they can be assembled. Or
-/// the pair, whose gears only rotate.
+/// The stage as a file: ring held, carrier free; planets are spaced evenly, or as nearly so as they can be assembled.
+/// Or the pair, whose gears only rotate.
 /// @throws InputError for impossible gears
 [[nodiscard]] nlohmann::ordered_json starter_stage(const Drawing& drawing);
 

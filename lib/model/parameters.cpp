@@ -225,7 +225,8 @@ void add_pin_errors(Parameters<double, N>& p, const gear::Stage& stage, const Sc
 ///   planet   e_spi = E_p sin(theta + phi_spi) ,  e_rpi = E_p sin(theta - phi_rpi)
 ///            theta = phi_i + psi_pi - d s / z_p
 ///   ring     e_rpi = - E_r sin(psi_r - d s / z_r - phi_rpi)
-///   teeth    e_i = p_k where tooth k passes planet i, by the trigonometric polynomial through all teeth
+///   teeth    e_i = p_k where tooth k passes planet i, by the trigonometric polynomial through all teeth;
+///            of planets where d (s + 2 pi lambda_i) / z_p = 2 pi k / z_p, for each of both flanks
 ///
 /// In the mirror image all angles have the other sign.
 template <std::size_t N>
@@ -313,7 +314,6 @@ class Shafts {
       }
       if (pitch) {
         const std::span<const double> all(*pitch);
-        // Tooth k is in contact where d (s + 2 pi lambda_i) / z_p is its angle.
         add_teeth(errors, mesh, i, all.size() > teeth ? all.subspan(i * teeth, teeth) : all,
                   along_ * two_pi * mesh.phase_cycles[i] / static_cast<double>(teeth), -along_);
       }

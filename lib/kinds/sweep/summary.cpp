@@ -107,13 +107,14 @@ std::vector<Largest> largest_of(bool pair) {
     return most;
   };
   const auto force = [](const Course& c) { return c.largest; };
+  const std::string mesh = pair ? "the mesh" : "a sun mesh";
   std::vector<Largest> all = {
       // The first four are also in the short lines.
-      {"dynamic factor K_v of a sun mesh", "1",
+      {"dynamic factor K_v of " + mesh, "1",
        [](const PointSummary& r) { return studies::StageRecord::kv(r.meshes.sun_planet); }},
       {"dynamic factor K_v of a ring mesh", "1",
        [](const PointSummary& r) { return studies::StageRecord::kv(r.meshes.ring_planet); }, true},
-      {"force of a sun mesh over its static force F_0", "1",
+      {"force of " + mesh + " over its static force F_0", "1",
        [](const PointSummary& r) { return r.meshes.dynamic_factor(r.meshes.sun_planet); }},
       {"force of a ring mesh over F_0 of a sun mesh", "1",
        [](const PointSummary& r) { return r.meshes.dynamic_factor(r.meshes.ring_planet); }, true},
@@ -121,7 +122,7 @@ std::vector<Largest> largest_of(bool pair) {
        [](const PointSummary& r) { return studies::StageRecord::k_gamma(r.meshes.sun_planet); }, true},
       {"mesh load factor K_gamma of the ring meshes", "1",
        [](const PointSummary& r) { return studies::StageRecord::k_gamma(r.meshes.ring_planet); }, true},
-      {"force of a sun mesh", "N",
+      {"force of " + mesh, "N",
        [=](const PointSummary& r) {
          return greatest(r.meshes.sun_planet, [&](const auto& m) { return force(m.force); });
        }},
@@ -130,7 +131,8 @@ std::vector<Largest> largest_of(bool pair) {
          return greatest(r.meshes.ring_planet, [&](const auto& m) { return force(m.force); });
        },
        true},
-      {"force of a planet's bearing", "N", [](const PointSummary& r) { return r.meshes.largest_bearing_force(); }},
+      {pair ? "force of the bearing of gear 2" : "force of a planet's bearing", "N",
+       [](const PointSummary& r) { return r.meshes.largest_bearing_force(); }},
       {"peak to peak of delta_sp_1", "b_c",
        [](const PointSummary& r) { return r.meshes.sun_planet.front().delta.range(); }},
       {"RMS of delta_sp_1", "b_c", [](const PointSummary& r) { return r.meshes.sun_planet.front().delta.rms; }},
@@ -138,7 +140,7 @@ std::vector<Largest> largest_of(bool pair) {
        [](const PointSummary& r) { return r.meshes.ring_planet.front().delta.range(); }, true},
       {"peak to peak of the transmission error", "b_c",
        [](const PointSummary& r) { return r.meshes.transmission_error.range(); }},
-      {"time out of contact, sun mesh", "part of the time",
+      {pair ? "time out of contact" : "time out of contact, sun mesh", "part of the time",
        [](const PointSummary& r) { return studies::StageRecord::loss_time(r.meshes.sun_planet); }},
       {"time out of contact, ring mesh", "part of the time",
        [](const PointSummary& r) { return studies::StageRecord::loss_time(r.meshes.ring_planet); }, true},
@@ -147,14 +149,7 @@ std::vector<Largest> largest_of(bool pair) {
       {"largest mesh force of a planet, over the average of the planets", "1",
        [](const PointSummary& r) { return r.meshes.largest_share(&Course::largest); }, true},
   };
-  if (!pair) return all;
-  std::erase_if(all, [](const Largest& l) { return l.of_stage; });
-  constexpr std::array<std::pair<const char*, const char*>, 3> words = {
-      {{" a sun mesh", " the mesh"}, {", sun mesh", ""}, {"a planet's bearing", "the bearing of gear 2"}}};
-  for (Largest& one : all)
-    for (const auto& [of_stage, of_pair] : words)
-      if (const auto at = one.what.find(of_stage); at != std::string::npos)
-        one.what.replace(at, std::string_view(of_stage).size(), of_pair);
+  if (pair) std::erase_if(all, [](const Largest& l) { return l.of_stage; });
   return all;
 }
 
