@@ -29,20 +29,20 @@ time apt-get -q install -y "${small[@]}" "$folder"/epicyclic_*.deb >/tmp/apt.log
 installed=$(since)
 ! command -v g++ cc >/dev/null || fail "a compiler is there"
 TIMEFORMAT='main job: %R s, CPU %U + %S s'
-time epicyclic sweep tang2020_calibrated_speed >/tmp/job.log 2>&1 || { cat /tmp/job.log && fail "the main job"; }
+time epicyclic sweep tang2020_printed_speed >/tmp/job.log 2>&1 || { cat /tmp/job.log && fail "the main job"; }
 TIMEFORMAT='report: %R s, CPU %U + %S s'
-time epicyclic report out/tang2020_calibrated_speed >/dev/null 2>&1 || fail "report"
+time epicyclic report out/tang2020_printed_speed >/dev/null 2>&1 || fail "report"
 done_after=$(since)
 echo "installed after $installed s, $(($(du -sxk --exclude=/var / 2>/dev/null | cut -f 1) - size_before)) kB with all that it needs"
 for file in figures/bifurcation_delta_sp.png sweep.md report.html; do
-  [ -s out/tang2020_calibrated_speed/$file ] || fail "the main job left no $file"
+  [ -s out/tang2020_printed_speed/$file ] || fail "the main job left no $file"
 done
 echo "figure and report after $done_after s from the beginning of apt, load $(cut -d ' ' -f 1-3 /proc/loadavg)"
 epicyclic doctor || fail "doctor"
 
 apt-get -q install -y "$folder"/*.deb >/tmp/apt.log 2>&1 || { cat /tmp/apt.log && exit 1; }
 echo "all packages after $(since) s"
-python3 -c 'import epicyclic as ep; r = ep.open("out/tang2020_calibrated_speed"); print(r); assert len(r.points) == 1322' ||
+python3 -c 'import epicyclic as ep; r = ep.open("out/tang2020_printed_speed"); print(r); assert len(r.points) == 1322' ||
   fail "Python"
 python3 -c 'import epicyclic as ep; p = ep.Stage.load("/usr/share/epicyclic/inputs/tang2020_speed.json").point(value=2.16)
 assert (p["regime"], p["period"]) == ("periodic", 1), p' || fail "computing in Python"
@@ -58,9 +58,9 @@ completed() {
     printf "%s\n" "${COMPREPLY[@]}"' bash "$1" "${2:-$1}"
 }
 completed 'epicyclic swe' | grep -qx sweep || fail "completion of a command"
-completed 'epicyclic sweep tang2020_cal' | grep -qx tang2020_calibrated_speed || fail "completion of an input"
-completed 'epicyclic run --from out/tang2020_calibrated_speed:up=2.1' \
-  'epicyclic run --from out/tang2020_calibrated_speed : up = 2.1' | grep -q '^2\.1' || fail "completion of a point"
+completed 'epicyclic sweep tang2020_pri' | grep -qx tang2020_printed || fail "completion of an input"
+completed 'epicyclic run --from out/tang2020_printed_speed:up=2.1' \
+  'epicyclic run --from out/tang2020_printed_speed : up = 2.1' | grep -q '^2\.1' || fail "completion of a point"
 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 2 epicyclic-mpi sweep \
   tang2020_speed -o /tmp/ranks --threads 1 --set /study/points=5 --set /study/crosscheck/points=0 >/tmp/mpi.log 2>&1 ||
   { cat /tmp/mpi.log && fail "epicyclic-mpi"; }
