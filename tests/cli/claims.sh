@@ -373,6 +373,10 @@ grep -q 'the first one has load = "torque", of whose options it has none' stderr
 if [ "${WHOLE:-no}" = yes ]; then
   [ "$(PATH=$with_gnuplot code_of "$epicyclic" reproduce tang2020 -o paper)" = 0 ] || fail "the paper's claims: $(<stderr)"
   ! grep -q 'not compared' stderr || fail "the recorded verdicts are of another study: $(<stderr)"
+  for stage in printed printed_fixed_ring; do
+    EPICYCLIC=$epicyclic "$inputs/../validation/tang2020/check_verdicts" --stage $stage --dots "$stage" same >verdicts ||
+      fail "$stage: $(<verdicts)"
+  done
 fi
 
 finish
