@@ -43,6 +43,15 @@ TEST(StudyWarnings, TheProjectsOwnInputsHaveNone) {
       EXPECT_TRUE(lines[0].starts_with("warning: /catalogue/ring/module_mm: replaced")) << lines[0];
       continue;
     }
+    if (name.starts_with("tang2020_printed")) {  // values that were found by the claims
+      ASSERT_FALSE(lines.empty()) << name;
+      EXPECT_NE(lines[0].find("/lumped/sun_planet_mesh/stiffness_N_per_m: is 1.5"), std::string::npos) << lines[0];
+      for (std::size_t k = 1; k < lines.size(); ++k)
+        EXPECT_TRUE(lines[k].starts_with("warning: /catalogue/ring/outer_diameter_mm: leaves a rim of 8.9") ||
+                    lines[k].starts_with("warning: /catalogue/ring/module_mm: replaced"))
+            << lines[k];
+      continue;
+    }
     EXPECT_EQ(joined(lines), "") << entry.path();
   }
   EXPECT_GT(looked_at, 15);
